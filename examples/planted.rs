@@ -14,7 +14,8 @@ use toile::geom::V2;
 use toile::geom::polyline::segment_distance;
 use toile::pattern::draft::Model;
 use toile::pattern::dxf::{self, Standard};
-use toile::pattern::{Handle, Style, handle};
+use toile::pattern::handle::Redrawn;
+use toile::pattern::{Handle, Style};
 use toile::spec::Study;
 use toile::wardrobe::catalogue;
 
@@ -214,7 +215,7 @@ fn study_of(fault: &Fault, moves: &[(Handle, f64)], edge_mm: f64, folder: &Path)
     let drafts = fault.model.drafts();
     let draft = drafts.get(fault.size).ok_or("no such size")?;
     let seams = fault.model.seams();
-    let pieces = handle::redrawn(&draft.pieces, seams, "seams.toml", moves)?.pieces;
+    let pieces = Redrawn::of(&draft.pieces, seams, "seams.toml", moves)?.pieces();
     Style::read(&pieces, seams, "seams.toml")?;
     let texts = [("Style Name".to_owned(), "planted".to_owned()), ("Units".to_owned(), "METRIC".to_owned())];
     std::fs::write(folder.join("planted.dxf"), dxf::write_pieces(&pieces, &texts, Standard::Aama))?;

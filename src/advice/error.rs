@@ -25,9 +25,6 @@ pub(crate) enum AdviceError {
     /// A garment without subjects or sizes.
     #[error("{garment}: nobody wears it; accepted: a garment with subjects and sizes")]
     NotWorn { garment: String },
-    /// A garment that women and men wear.
-    #[error("{garment}: women and men wear it; accepted: a garment of one sex")]
-    BothSexes { garment: String },
     /// A count out of its range.
     #[error("{count} {of}; accepted: {} to {}", accepted.start(), accepted.end())]
     Count { count: usize, of: &'static str, accepted: RangeInclusive<usize> },
@@ -43,9 +40,6 @@ pub(crate) enum AdviceError {
     /// A style whose handles widen no level that has a target.
     #[error("{style}: no handle widens a level that has a target; there is: {handles}")]
     NoHandle { style: String, handles: String },
-    /// A piece for which the grade rules make nothing.
-    #[error("the rules make no piece `{piece}`")]
-    NoPiece { piece: String },
     /// A piece that the grade rules make different from its drawing.
     #[error("piece `{piece}` of size {size}: the rules make it {apart_mm:.2} mm off; accepted: {accepted_mm} mm")]
     OtherPiece { piece: String, size: String, apart_mm: f64, accepted_mm: f64 },

@@ -15,5 +15,7 @@ pub use chance::{
     Chance, DrapedChance, LevelChance, LikelyDimension, PlantedLevel, PlantedTally, Question, Reliability, SizeChance,
     chance, planted,
 };
-pub use grading::{DrapedAgain, GradeWish, Grading, LevelShare, PartShare, Range, SizeSet, SizeShare, Turn, grade};
+pub use grading::{
+    DrapedAgain, GradeWish, Grading, Grown, LevelShare, PartShare, Range, SizeSet, SizeShare, Turn, grade,
+};
 pub use population::{Nearest, PopulationOptions, Representative, representatives, subjects_text};

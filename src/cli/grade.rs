@@ -4,8 +4,10 @@ use super::args::Grade;
 use super::context::Context;
 use super::output::tenths;
 use super::{CliError, End, Outcome, output, xlsx};
+use advice::Grown;
 use advice::{GradeWish, Grading, SizeSet, SizeShare};
 use report::file_part;
+use spec::bodies::Sex;
 use store::{Table, Value, files};
 
 /// Runs `toile grade`: finds the sizes that fit the most people, prints and writes them.
@@ -51,6 +53,7 @@ fn sheets(found: &Grading) -> Vec<(&'static str, Table)> {
         ("coverage", coverage(found)),
         ("levels", levels(found)),
         ("parts", parts(found)),
+        ("growth", growth(found)),
         ("grade", turns(found)),
         ("size chart", chart(found)),
         ("spec sheet", found.sheet.table()),
@@ -60,7 +63,11 @@ fn sheets(found: &Grading) -> Vec<(&'static str, Table)> {
 fn print(context: &Context, found: &Grading) -> Result<(), CliError> {
     let [sought, held_out] = found.people;
     let Grading { garment, base, intended, apart_mm, .. } = found;
-    let who = if found.sex == spec::bodies::Sex::Male { "men" } else { "women" };
+    let who = match found.sexes[..] {
+        [Sex::Male] => "men",
+        [Sex::Female] => "women",
+        _ => "women and men",
+    };
     output::text(&format!(
         "{garment}, made of {base}, {intended} fit: sought for {sought} {who}, judged on {held_out} others\n"
     ))?;
@@ -68,7 +75,9 @@ fn print(context: &Context, found: &Grading) -> Result<(), CliError> {
         output::text(&format!("{title}\n"))?;
         context.print(&if title == "spec sheet" { without_last(table) } else { table })?;
     }
-    output::text(&format!("rules read again: the same sizes within {apart_mm:.3} mm\n"))?;
+    let rules = found.rules;
+    output::text(&format!("{rules} rules, read again: the same sizes within {apart_mm:.3} mm\n"))?;
+    found.refused.iter().for_each(output::note);
     if let Some(drapes) = &found.drapes {
         output::text(&format!("draped again: {} of {} agree\n", drapes.agree, drapes.people))?;
         drapes.against.iter().for_each(output::note);
@@ -138,18 +147,34 @@ fn new(found: &Grading) -> &[SizeShare] {
     found.sets.last().map_or(&[], |set| &set.sizes)
 }
 
+/// Lengths that grow with a girth, with their steps.
+fn growth(found: &Grading) -> Table {
+    let step =
+        |row: &Grown, group: usize| row.steps_mm.get(group).map_or(Value::Null, |step| text(format!("{step:+.1}")));
+    let row = |row: &Grown| {
+        let share = text(format!("{:+.1}", row.of_40_mm));
+        let own = [text(row.handle.replace('_', " ")), text(row.with.replace('_', " ")), share, step(row, 0)];
+        own.into_iter().chain(found.split.is_some().then(|| step(row, 1))).collect()
+    };
+    let from = found.split.as_ref().map(|split| format!("step_mm from {split}"));
+    let columns = ["length", "with", "of_40_mm", "step_mm"].into_iter().map(str::to_owned).chain(from);
+    Table { columns: columns.collect(), rows: found.growth.iter().map(row).collect() }
+}
+
 /// Amounts of the handles in each size, relative to the base, mm.
 fn turns(found: &Grading) -> Table {
     let columns = std::iter::once("handle".to_owned()).chain(new(found).iter().map(|size| format!("{}_mm", size.size)));
     let row = |handle: &&'static str| {
         let amount = |size: &SizeShare| {
             let turn = size.turns.iter().find(|turn| turn.handle == *handle);
-            text(format!("{:+.0}", turn.map_or(0.0, |turn| turn.amount_mm)))
+            text(format!("{:+.1}", turn.map_or(0.0, |turn| turn.amount_mm)))
         };
         std::iter::once(text(handle.replace('_', " "))).chain(new(found).iter().map(amount)).collect()
     };
-    let [turned, following] = &found.handles;
-    Table { columns: columns.collect(), rows: turned.iter().chain(following).map(row).collect() }
+    let named =
+        |handle: &&'static str| new(found).iter().any(|size| size.turns.iter().any(|turn| turn.handle == *handle));
+    let handles = pattern::Handle::ALL.map(pattern::Handle::as_str);
+    Table { columns: columns.collect(), rows: handles.iter().filter(|handle| named(handle)).map(row).collect() }
 }
 
 /// Dimensions of the people who wear each size.

@@ -14,11 +14,13 @@ use super::progress::{Progress, label};
 use super::{CliError, End, Outcome, detached, output, pictures, runs};
 use engine::{Planned, RunOptions, SlurmOptions, enqueue, run, slurm};
 use sim::Stage;
-use spec::{JobSpec, Limits, Selection, Study};
+use spec::{Limits, Selection, Study};
 use store::{JobFilter, JobId, JobRow, Status, Store, StudyError, Table, Value, files, read, sql};
 
 /// Time between two checks of the running jobs.
 const LOOK: Duration = Duration::from_millis(150);
+/// Number of jobs in a printed table of a plan.
+const TOGETHER: usize = 10_000;
 /// Time between two checks of a cluster.
 const SLURM_LOOK: Duration = Duration::from_secs(1);
 
@@ -42,7 +44,11 @@ pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
     }
     if arguments.dry_run {
         let planned = run::plan(&mut store, &study, &selection)?;
-        context.print(&plan_table(&planned))?;
+        // A table is laid out as a whole, and of a million jobs it would not fit the memory.
+        let part = if context.json { planned.len().max(1) } else { TOGETHER };
+        for planned in planned.chunks(part) {
+            context.print(&plan_table(&study, planned))?;
+        }
         return Ok(End::Done);
     }
     if !arguments.no_report {
@@ -111,9 +117,9 @@ fn interruption() -> Result<Arc<AtomicBool>, CliError> {
 fn tell_plan(context: &Context, study: &Study, planned: &[Planned], why: bool) -> BTreeSet<JobId> {
     if why || context.verbose {
         for job in planned {
-            let JobSpec { garment, size, subject, simulator, .. } = &job.spec;
-            let which = label(garment, size, subject);
-            context.say(format_args!("{which} {}: {}", simulator.as_str(), job.why));
+            let cell = job.cell;
+            let which = label(&cell.garment(study).name, &cell.size(study).name, &cell.subject(study).id);
+            context.say(format_args!("{which} {}: {}", cell.simulator.as_str(), job.why));
         }
     }
     let todo: BTreeSet<JobId> = planned.iter().filter(|job| job.why.will_run()).map(|job| job.id).collect();
@@ -182,16 +188,16 @@ pub fn work(
 }
 
 /// Table of the jobs in a plan, each with the reason why it would run or not.
-fn plan_table(planned: &[Planned]) -> Table {
+fn plan_table(study: &Study, planned: &[Planned]) -> Table {
     let columns = ["garment", "size", "subject", "sim", "repeat", "runs", "why"];
     let rows = planned.iter().map(|job| {
         let text = |text: &str| Value::Text(text.to_owned());
         vec![
-            text(&job.spec.garment),
-            text(&job.spec.size),
-            text(&job.spec.subject),
-            text(job.spec.simulator.as_str()),
-            Value::Integer(i64::from(job.spec.repeat)),
+            text(&job.cell.garment(study).name),
+            text(&job.cell.size(study).name),
+            text(&job.cell.subject(study).id),
+            text(job.cell.simulator.as_str()),
+            Value::Integer(i64::from(job.cell.repeat)),
             text(if job.why.will_run() { "yes" } else { "no" }),
             Value::Text(job.why.to_string()),
         ]

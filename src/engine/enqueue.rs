@@ -10,7 +10,7 @@ use crate::error::EngineError;
 use fit::Simulator;
 use fit::target::TARGETS;
 use geom::units::mm;
-use spec::{Change, Inputs, JobSpec, Limits, Selection, Study};
+use spec::{Cell, Change, Inputs, JobSpec, Limits, Selection, Study};
 use store::owner::Watch;
 use store::queue::{self, Event};
 use store::{JobId, Result, Status, Store, StudyError, columns, now_ms, read};
@@ -59,13 +59,13 @@ impl std::fmt::Display for Why {
     }
 }
 
-/// A job of the queue with its specification.
+/// A job of the queue with its cell of the study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Planned {
     /// Number of the job in the queue.
     pub id: JobId,
-    /// Specification of the job.
-    pub spec: JobSpec,
+    /// Cell of the study, which makes the specification of the job.
+    pub cell: Cell,
     /// Reason why the job runs, or need not run.
     pub why: Why,
     /// True if the job was the current one of its cell before.
@@ -86,46 +86,57 @@ pub fn queue(store: &mut Store, study: &Study, selection: &Selection) -> Result<
 /// Stores a study and queues those of its jobs that have to run, with those that failed or were cancelled. Cells that
 /// the study no longer has lose their current job.
 pub(crate) fn enqueue(transaction: &Transaction<'_>, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
-    let all = spec::jobs(study);
-    each_size_has_its_key(&all)?;
     // Comes first: it may give up a job whose processes died too often, and who starts a run wants that job queued
     // again.
     queue::take_over(transaction, &mut Watch::default())?;
     let study_id = store_study(transaction, study)?;
-    retire(transaction, study_id, &all)?;
-    let specs: Vec<JobSpec> = all.into_iter().filter(|spec| selection.takes(spec)).collect();
-    let planned = specs.into_iter().map(|spec| enqueue_one(transaction, study_id, spec)).collect::<Result<Vec<_>>>()?;
-    chain(transaction, &planned)?;
+    let cells = spec::cells(study);
+    retire(transaction, study_id, study, &cells)?;
+    let (mut keys, mut planned) = (SizeKeys::default(), Vec::new());
+    for cell in cells {
+        let spec = cell.job(study);
+        keys.add(cell, study, &spec)?;
+        if selection.takes(cell, study) {
+            let (id, why, was_current) = enqueue_one(transaction, study_id, &spec)?;
+            planned.push(Planned { id, cell, why, was_current });
+        }
+    }
+    chain(transaction, study, &planned)?;
     Ok(planned)
 }
 
-/// Checks that no two sizes have the same inputs, since one would then get the result of the other.
-fn each_size_has_its_key(specs: &[JobSpec]) -> Result<()> {
-    let mut size_of: BTreeMap<String, &String> = BTreeMap::new();
-    for spec in specs {
-        let JobSpec { garment, size, subject, .. } = spec;
-        let earlier = *size_of.entry(spec.inputs.hash()).or_insert(size);
-        if earlier != size {
+/// Cells by the hashes of their inputs.
+#[derive(Default)]
+struct SizeKeys(BTreeMap<[u8; 32], Cell>);
+
+impl SizeKeys {
+    /// Checks that no two sizes have the same inputs, since one would then get the result of the other.
+    fn add(&mut self, cell: Cell, study: &Study, spec: &JobSpec) -> Result<()> {
+        let earlier = *self.0.entry(spec.inputs.digest()).or_insert(cell);
+        let earlier = &earlier.size(study).name;
+        if *earlier != spec.size {
+            let JobSpec { garment, size, subject, .. } = spec;
             let [garment, earlier, size, subject] = [garment, earlier, size, subject].map(String::clone);
             return Err(EngineError::SameInputs { garment, earlier, size, subject }.into());
         }
+        Ok(())
     }
-    Ok(())
 }
 
 /// Makes each job that has to run wait for the jobs of the same run which its garment comes `after`.
-fn chain(transaction: &Transaction<'_>, planned: &[Planned]) -> Result<()> {
-    if planned.iter().all(|job| job.spec.schedule.after.is_empty()) {
+fn chain(transaction: &Transaction<'_>, study: &Study, planned: &[Planned]) -> Result<()> {
+    if study.worn().all(|garment| garment.schedule.after.is_empty()) {
         return Ok(());
     }
     type Place<'a> = (&'a str, &'a str, Simulator);
     let mut places: BTreeMap<Place<'_>, Vec<JobId>> = BTreeMap::new();
-    for Planned { id, spec, .. } in planned {
-        places.entry((&spec.garment, &spec.subject, spec.simulator)).or_default().push(*id);
+    for Planned { id, cell, .. } in planned {
+        let place = (&*cell.garment(study).name, &*cell.subject(study).id, cell.simulator);
+        places.entry(place).or_default().push(*id);
     }
-    for Planned { id, spec, why, .. } in planned.iter().filter(|job| job.why.will_run()) {
-        let before = spec.schedule.after.iter().filter_map(|garment| {
-            let place: Place<'_> = (garment, &spec.subject, spec.simulator);
+    for Planned { id, cell, why, .. } in planned.iter().filter(|job| job.why.will_run()) {
+        let before = cell.garment(study).schedule.after.iter().filter_map(|garment| {
+            let place: Place<'_> = (garment, &cell.subject(study).id, cell.simulator);
             places.get(&place)
         });
         let needs: Vec<JobId> = before.flatten().copied().collect();
@@ -220,59 +231,57 @@ fn store_targets(transaction: &Transaction<'_>, study_id: i64, study: &Study) ->
     Ok(())
 }
 
+/// Names of a cell: garment, size and subject, simulator and repeat.
+type Names<'a> = ([&'a str; 3], Simulator, u32);
+
 /// Removes cells that a study no longer has from its jobs and eases. Their results stay in the database.
-fn retire(transaction: &Transaction<'_>, study_id: i64, specs: &[JobSpec]) -> Result<()> {
-    let cells: BTreeSet<Cell> = specs.iter().map(Cell::new).collect();
-    let current: Vec<(JobId, Cell)> = transaction
-        .prepare_cached(
-            "SELECT job_id, garment, size, subject, simulator, repeat FROM job WHERE study_id = ? AND is_current",
-        )?
-        .query_map([study_id], |row| {
-            let cell = Cell {
-                garment: row.get(1)?,
-                size: row.get(2)?,
-                subject: row.get(3)?,
-                simulator: columns::simulator(row, 4)?,
-                repeat: row.get(5)?,
-            };
-            Ok((JobId(row.get(0)?), cell))
-        })?
-        .collect::<rusqlite::Result<_>>()?;
-    for (id, _) in current.iter().filter(|(_, cell)| !cells.contains(cell)) {
-        supersede(transaction, *id)?;
+fn retire(transaction: &Transaction<'_>, study_id: i64, study: &Study, cells: &[Cell]) -> Result<()> {
+    let names = |cell: &Cell| -> Names<'_> {
+        let worn = [&*cell.garment(study).name, &*cell.size(study).name, &*cell.subject(study).id];
+        (worn, cell.simulator, cell.repeat)
+    };
+    let known: BTreeSet<Names<'_>> = cells.iter().map(names).collect();
+    let mut gone = Vec::new();
+    let mut statement = transaction.prepare_cached(
+        "SELECT job_id, garment, size, subject, simulator, repeat FROM job WHERE study_id = ? AND is_current",
+    )?;
+    let mut rows = statement.query([study_id])?;
+    while let Some(row) = rows.next()? {
+        let [garment, size, subject]: [String; 3] = [row.get(1)?, row.get(2)?, row.get(3)?];
+        let cell: Names<'_> = ([&garment, &size, &subject], columns::simulator(row, 4)?, row.get(5)?);
+        if !known.contains(&cell) {
+            gone.push(JobId(row.get(0)?));
+        }
     }
-    let worn: BTreeSet<[&str; 3]> = specs.iter().map(|spec| [&*spec.garment, &*spec.size, &*spec.subject]).collect();
-    let eased: BTreeSet<[String; 3]> = transaction
-        .prepare_cached("SELECT garment, size, subject FROM ease WHERE study_id = ?")?
-        .query_map([study_id], |row| Ok([row.get(0)?, row.get(1)?, row.get(2)?]))?
-        .collect::<rusqlite::Result<_>>()?;
-    for [garment, size, subject] in eased.iter().filter(|[g, s, who]| !worn.contains(&[&**g, &**s, &**who])) {
+    drop(rows);
+    drop(statement);
+    for id in gone {
+        supersede(transaction, id)?;
+    }
+    let is_worn = |worn: [&str; 3]| {
+        let first: Names<'_> = (worn, Simulator::ALL[0], 0);
+        known.range(first..).next().is_some_and(|(found, ..)| *found == worn)
+    };
+    let mut unworn: Vec<[String; 3]> = Vec::new();
+    let mut statement =
+        transaction.prepare_cached("SELECT DISTINCT garment, size, subject FROM ease WHERE study_id = ?")?;
+    let mut rows = statement.query([study_id])?;
+    while let Some(row) = rows.next()? {
+        let eased: [String; 3] = [row.get(0)?, row.get(1)?, row.get(2)?];
+        if !is_worn(eased.each_ref().map(String::as_str)) {
+            unworn.push(eased);
+        }
+    }
+    for [garment, size, subject] in unworn {
         let sql = "DELETE FROM ease WHERE study_id = ? AND garment = ? AND size = ? AND subject = ?";
         transaction.prepare_cached(sql)?.execute(params![study_id, garment, size, subject])?;
     }
     Ok(())
 }
 
-/// Cell of a study's grid.
-#[derive(PartialEq, Eq, PartialOrd, Ord)]
-struct Cell {
-    garment: String,
-    size: String,
-    subject: String,
-    simulator: Simulator,
-    repeat: u32,
-}
-
-impl Cell {
-    fn new(spec: &JobSpec) -> Self {
-        let JobSpec { garment, size, subject, simulator, repeat, .. } = spec;
-        let [garment, size, subject] = [garment, size, subject].map(String::clone);
-        Self { garment, size, subject, simulator: *simulator, repeat: *repeat }
-    }
-}
-
-/// Finds or inserts the job of a specification and makes it the current job of its cell.
-fn enqueue_one(transaction: &Transaction<'_>, study_id: i64, spec: JobSpec) -> Result<Planned> {
+/// Finds or inserts the job of a specification and makes it the current job of its cell. Returns its number, the reason
+/// why it runs, and whether it was the current one before.
+fn enqueue_one(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec) -> Result<(JobId, Why, bool)> {
     let hash = spec.inputs.hash();
     let same = transaction
         .prepare_cached(
@@ -284,10 +293,10 @@ fn enqueue_one(transaction: &Transaction<'_>, study_id: i64, spec: JobSpec) -> R
             |row| Ok((JobId(row.get(0)?), columns::status(row, 1)?)),
         )
         .optional()?;
-    let earlier = latest_of_cell(transaction, study_id, &spec)?;
+    let earlier = latest_of_cell(transaction, study_id, spec)?;
     if let Some((id, status)) = same {
         make_current(transaction, id, earlier)?;
-        set_limits(transaction, id, &spec)?;
+        set_limits(transaction, id, spec)?;
         let why = match status {
             Status::Done | Status::NotConverged => Why::UpToDate(status),
             Status::Queued | Status::Running => Why::Waiting,
@@ -296,7 +305,7 @@ fn enqueue_one(transaction: &Transaction<'_>, study_id: i64, spec: JobSpec) -> R
                 Why::Again(status)
             }
         };
-        return Ok(Planned { id, spec, why, was_current: earlier == Some(id) });
+        return Ok((id, why, earlier == Some(id)));
     }
     let why = match earlier {
         Some(since) => Why::Changed { since, changes: spec.inputs.changes_since(&inputs_of(transaction, since)?) },
@@ -305,9 +314,9 @@ fn enqueue_one(transaction: &Transaction<'_>, study_id: i64, spec: JobSpec) -> R
     if let Some(old) = earlier {
         supersede(transaction, old)?;
     }
-    let id = insert(transaction, study_id, &spec, &hash)?;
+    let id = insert(transaction, study_id, spec, &hash)?;
     queue::log(transaction, id, "info", &format!("queued: {why}"))?;
-    Ok(Planned { id, spec, why, was_current: false })
+    Ok((id, why, false))
 }
 
 /// The current job of a specification's cell.

@@ -68,8 +68,9 @@ pub fn hand_out(store: &mut Store, study: &Study, selection: &Selection, folder:
         if job.why.will_run() {
             // Cells may share all inputs, such as variants of a sweep over a parameter that one simulator does not
             // have.
-            let path = folder.join(format!("{}-{}{JOB}", job.id, &job.spec.inputs.hash()[..16]));
-            let (study, spec) = (study.name.clone(), job.spec.clone());
+            let spec = job.cell.job(study);
+            let path = folder.join(format!("{}-{}{JOB}", job.id, &spec.inputs.hash()[..16]));
+            let study = study.name.clone();
             write_json(&path, &JobFile { format: FORMAT, study, provenance: provenance.clone(), spec })?;
             file = Some(path);
         }

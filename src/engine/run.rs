@@ -151,7 +151,8 @@ fn launch(
     let folder = study.path.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
     // If all jobs had their results before, ease is stored as well, and only the evidence may be missing.
     let is_settled = planned.iter().all(|job| job.was_current && !job.why.will_run());
-    let name = study.name.clone();
+    let (name, study) = (study.name.clone(), study.clone());
+    let of_run = name.clone();
     let work = move || {
         if is_settled {
             // A run that was killed may have stored results without judging them.
@@ -160,12 +161,12 @@ fn launch(
         let provenance = Provenance::of(&folder);
         thread::scope(|scope| {
             scope.spawn(aside);
-            let work = workers::Work { study: &name, jobs: &jobs };
+            let work = workers::Work { study: &study, jobs: &jobs };
             workers::run(&database, &work, &*executor, workers, provenance, &stopped, &live)
         })
     };
     let thread = thread::Builder::new().name("toile-run".into()).spawn(work).map_err(StudyError::io("thread"))?;
-    Ok(Run { study: study.name.clone(), planned, stop, thread: Some(thread) })
+    Ok(Run { study: of_run, planned, stop, thread: Some(thread) })
 }
 
 /// Number of subjects whose eases are stored in one transaction.

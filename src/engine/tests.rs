@@ -433,7 +433,10 @@ fn what_waits_for_a_failed_job_is_cancelled_and_retried_with_it() {
             _ => Ok(outcome(spec)),
         });
     let status = |bench: &Bench, garment: &str, subject: &str| -> Vec<Status> {
-        let cells = planned.iter().filter(|job| (&*job.spec.garment, &*job.spec.subject) == (garment, subject));
+        let cells = planned.iter().filter(|job| {
+            let study = chained();
+            (&*job.cell.garment(&study).name, &*job.cell.subject(&study).id) == (garment, subject)
+        });
         cells.map(|job| read::job(&bench.store, job.id).expect("there").status).collect()
     };
     assert!(status(&bench, "over", "ii").iter().all(|status| status.has_result()));

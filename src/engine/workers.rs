@@ -21,7 +21,7 @@ use crate::outcome::{self, Executor, Outcome, Provenance};
 use geom::V3;
 use geom::units::mm;
 use sim::{Monitor, Progress};
-use spec::JobSpec;
+use spec::{Cell, JobSpec, Study};
 use store::owner::{Owner, Watch};
 use store::{Access, JobId, JobProgress, Live as LiveView, Result, StudyError, evidence, now_ms, queue};
 
@@ -43,8 +43,8 @@ const JUDGED_SHARE: u32 = 20;
 /// One run of the planned jobs by this process.
 struct Run<'a> {
     database: &'a Path,
-    study: &'a str,
-    specs: BTreeMap<JobId, &'a JobSpec>,
+    study: &'a Study,
+    cells: BTreeMap<JobId, Cell>,
     ids: Vec<JobId>,
     executor: &'a dyn Executor,
     owner: Owner,
@@ -60,8 +60,8 @@ struct Run<'a> {
 
 /// Jobs to be run.
 pub(crate) struct Work<'a> {
-    /// Name of the study.
-    pub study: &'a str,
+    /// Study whose cells the jobs are.
+    pub study: &'a Study,
     /// Jobs of the study, in the order of its cells.
     pub jobs: &'a [Planned],
 }
@@ -83,7 +83,7 @@ pub(crate) fn run(
     let run = Run {
         database,
         study: work.study,
-        specs: work.jobs.iter().map(|job| (job.id, &job.spec)).collect(),
+        cells: work.jobs.iter().map(|job| (job.id, job.cell)).collect(),
         ids: work.jobs.iter().map(|job| job.id).collect(),
         executor,
         owner: Owner::new(),
@@ -107,7 +107,7 @@ pub(crate) fn run(
         });
         worked.fold(pumped, Result::and)
     })?;
-    evidence::update(&mut store::open(database, Access::Volatile)?, work.study)
+    evidence::update(&mut store::open(database, Access::Volatile)?, &work.study.name)
 }
 
 impl Run<'_> {
@@ -143,16 +143,16 @@ impl Run<'_> {
         let live = Arc::new(Live::default());
         lock(&self.live).insert(id, live.clone());
         let mut reporter = Reporter { id, live: &live, view: self.view, stop: self.stop };
-        let spec = self.specs[&id];
-        let result = catch_unwind(AssertUnwindSafe(|| self.executor.execute(spec, &mut reporter)))
+        let spec = self.cells[&id].job(self.study);
+        let result = catch_unwind(AssertUnwindSafe(|| self.executor.execute(&spec, &mut reporter)))
             .unwrap_or_else(|panic| Err(EngineError::Panic(panic_text(&*panic)).into()));
         let written = match result {
             Err(error @ (StudyError::Database(_) | StudyError::Open { .. })) => {
                 // If this fails too, the next run puts the job back, since this owner is dead.
-                let _ = self.finish(connection, id, &Err(StudyError::Interrupted));
+                let _ = self.finish(connection, id, &spec, &Err(StudyError::Interrupted));
                 Err(error)
             }
-            result => self.finish(connection, id, &result),
+            result => self.finish(connection, id, &spec, &result),
         };
         lock(&self.live).remove(&id);
         self.has_news.store(true, Ordering::Relaxed);
@@ -160,8 +160,8 @@ impl Run<'_> {
     }
 
     /// Stores the outcome of a job. The job fails if the schema refuses the result, for example a NaN.
-    fn finish(&self, connection: &mut Connection, id: JobId, result: &Result<Outcome>) -> Result<()> {
-        let (spec, owner) = (self.specs[&id], self.owner.as_str());
+    fn finish(&self, connection: &mut Connection, id: JobId, spec: &JobSpec, result: &Result<Outcome>) -> Result<()> {
+        let owner = self.owner.as_str();
         match outcome::finish(connection, id, spec, owner, result, &self.provenance) {
             Err(StudyError::Database(error)) if result.is_ok() && is_constraint(&error) => {
                 let failure = Err(EngineError::Unstorable(error).into());
@@ -184,7 +184,7 @@ impl Run<'_> {
             }
             let began = Instant::now();
             if began > next_judged && self.has_news.swap(false, Ordering::Relaxed) {
-                evidence::update(&mut connection, self.study)?;
+                evidence::update(&mut connection, &self.study.name)?;
                 next_judged = Instant::now() + JUDGED_SHARE * began.elapsed();
             }
         }

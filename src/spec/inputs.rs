@@ -63,7 +63,13 @@ impl Inputs {
     /// Hash of all inputs, hex.
     #[must_use]
     pub fn hash(&self) -> String {
-        self.hash_of(|_| true)
+        self.hash_of(|_| true).to_hex().to_string()
+    }
+
+    /// Hash of all inputs, as bytes.
+    #[must_use]
+    pub fn digest(&self) -> [u8; 32] {
+        *self.hash_of(|_| true).as_bytes()
     }
 
     /// Hash of a stage and of the inputs that it depends on, hex.
@@ -71,13 +77,13 @@ impl Inputs {
     pub fn stage_hash(&self, stage: StageKind) -> String {
         let mut hasher = blake3::Hasher::new();
         hasher.update(stage.as_str().as_bytes());
-        hasher.update(self.hash_of(|name| depends_on(stage, name)).as_bytes());
+        hasher.update(self.hash_of(|name| depends_on(stage, name)).to_hex().as_bytes());
         hasher.finalize().to_hex().to_string()
     }
 
     /// Hash of the inputs whose names `matters` accepts. The length of each text goes before it, so that no two lists
     /// of inputs have the same bytes.
-    fn hash_of(&self, matters: impl Fn(&str) -> bool) -> String {
+    fn hash_of(&self, matters: impl Fn(&str) -> bool) -> blake3::Hash {
         let mut hasher = blake3::Hasher::new();
         for (name, value) in self.0.iter().filter(|(name, _)| matters(name)) {
             for text in [name, value] {
@@ -85,7 +91,7 @@ impl Inputs {
                 hasher.update(text.as_bytes());
             }
         }
-        hasher.finalize().to_hex().to_string()
+        hasher.finalize()
     }
 
     /// Changes since earlier inputs, sorted by name.

@@ -98,10 +98,11 @@ pub struct Selection {
 }
 
 impl Selection {
-    /// True if a job is selected.
+    /// True if the job of a cell of a study is selected.
     #[must_use]
-    pub fn takes(&self, spec: &JobSpec) -> bool {
-        self.takes_cell([spec.simulator.as_str(), &spec.size, &spec.subject, &spec.garment])
+    pub fn takes(&self, cell: Cell, study: &Study) -> bool {
+        let (garment, size, subject) = (cell.garment(study), cell.size(study), cell.subject(study));
+        self.takes_cell([cell.simulator.as_str(), &size.name, &subject.id, &garment.name])
     }
 
     /// True if the job of a stored row is selected.
@@ -145,37 +146,79 @@ impl Selection {
 /// All jobs of a study, in the order of its file: garments, sizes, subjects, simulators, repeats.
 #[must_use]
 pub fn jobs(study: &Study) -> Vec<JobSpec> {
-    jobs_where(study, |_, _| true)
+    cells(study).iter().map(|cell| cell.job(study)).collect()
 }
 
 /// Jobs of one garment on one subject, in the same order.
 #[must_use]
 pub fn jobs_of(study: &Study, garment: &str, subject: &str) -> Vec<JobSpec> {
-    jobs_where(study, |entry, who| entry.name == garment && who.id == subject)
+    let is_wanted = |cell: &&Cell| cell.garment(study).name == garment && cell.subject(study).id == subject;
+    cells(study).iter().filter(is_wanted).map(|cell| cell.job(study)).collect()
 }
 
-fn jobs_where(study: &Study, is_wanted: impl Fn(&GarmentEntry, &Subject) -> bool) -> Vec<JobSpec> {
-    let mut jobs = Vec::new();
-    for garment in study.worn() {
-        let wearers: BTreeSet<&str> = garment.subjects.iter().map(String::as_str).collect();
+/// Cell of the grid of a study, as indices into it: a job takes kilobytes, and a study may have a million.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Cell {
+    garment: u32,
+    size: u32,
+    subject: u32,
+    /// Simulator that drapes the garment.
+    pub simulator: Simulator,
+    /// Number of the repeat, from 1.
+    pub repeat: u32,
+}
+
+impl Cell {
+    /// Garment of the study that made the cell, or layer of an outfit.
+    #[must_use]
+    pub fn garment(self, study: &Study) -> &GarmentEntry {
+        let index = self.garment as usize;
+        study.garments.get(index).unwrap_or_else(|| &study.layers[index - study.garments.len()])
+    }
+
+    /// Size of the garment.
+    #[must_use]
+    pub fn size(self, study: &Study) -> &SizeFile {
+        &self.garment(study).sizes[self.size as usize]
+    }
+
+    /// Subject who wears the garment.
+    #[must_use]
+    pub fn subject(self, study: &Study) -> &Subject {
+        &study.subjects[self.subject as usize]
+    }
+
+    /// Job of the cell.
+    #[must_use]
+    pub fn job(self, study: &Study) -> JobSpec {
+        job(self.garment(study), self.size as usize, self.subject(study), self.simulator, self.repeat)
+    }
+}
+
+/// All cells of a study, in the order of its jobs.
+#[must_use]
+pub fn cells(study: &Study) -> Vec<Cell> {
+    let mut cells = Vec::new();
+    let number = |index: usize| u32::try_from(index).unwrap_or(u32::MAX);
+    for (garment, entry) in study.worn().enumerate() {
+        let wearers: BTreeSet<&str> = entry.subjects.iter().map(String::as_str).collect();
         // Layers of an outfit cannot be carried into another pose.
-        let is_able = |subject: &Subject| garment.outfit.is_none() || subject.carried_from.is_none();
-        let is_worn = |subject: &&Subject| {
-            wearers.contains(subject.id.as_str()) && is_able(subject) && is_wanted(garment, subject)
-        };
-        let subjects: Vec<&Subject> = study.subjects.iter().filter(is_worn).collect();
-        for size in 0..garment.sizes.len() {
-            for subject in &subjects {
+        let is_able = |subject: &Subject| entry.outfit.is_none() || subject.carried_from.is_none();
+        let is_worn = |(_, subject): &(usize, &Subject)| wearers.contains(subject.id.as_str()) && is_able(subject);
+        let subjects: Vec<(usize, &Subject)> = study.subjects.iter().enumerate().filter(is_worn).collect();
+        for size in 0..entry.sizes.len() {
+            for (subject, who) in &subjects {
                 // Only FEM-GS simulates layers, and the friction by which a body carries a garment.
-                let is_plain = garment.outfit.is_none() && subject.carried_from.is_none();
+                let is_plain = entry.outfit.is_none() && who.carried_from.is_none();
                 for &simulator in study.simulators.iter().filter(|simulator| is_plain || **simulator == Simulator::Fem)
                 {
-                    jobs.extend((1..=study.repeats).map(|n| job(garment, size, subject, simulator, n)));
+                    let [garment, size, subject] = [garment, size, *subject].map(number);
+                    cells.extend((1..=study.repeats).map(|repeat| Cell { garment, size, subject, simulator, repeat }));
                 }
             }
         }
     }
-    jobs
+    cells
 }
 
 fn job(garment: &GarmentEntry, size: usize, subject: &Subject, simulator: Simulator, repeat: u32) -> JobSpec {

@@ -22,7 +22,9 @@ pub use export::export_study;
 pub use fields::{FABRIC_NUMBERS, MEASUREMENTS, sex};
 pub use file::{Person, Study, read_measurements, study_file};
 pub use inputs::{Change, Inputs};
-pub use job::{CARRIED_FROM, JobSpec, Outfit, PATTERN_SIZE, Selection, fabric_inputs, jobs, jobs_of, subject_inputs};
+pub use job::{
+    CARRIED_FROM, Cell, JobSpec, Outfit, PATTERN_SIZE, Selection, cells, fabric_inputs, jobs, jobs_of, subject_inputs,
+};
 pub use new_study::{QUICKSTART, new_study, write_quickstart};
 pub use parameters::{Parameters, SIMULATORS};
 pub use schedule::{Limits, Schedule};

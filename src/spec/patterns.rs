@@ -140,6 +140,11 @@ impl Nest {
         }
     }
 
+    /// Texts of the first file outside its pieces, as `(key, value)`.
+    pub fn texts(&self) -> &[(String, String)] {
+        self.files.first().map_or(&[], |file| &file.texts)
+    }
+
     /// Name of the sample size.
     pub fn sample_size(&self) -> &str {
         self.graded().map_or("", PatternFile::sample_size)

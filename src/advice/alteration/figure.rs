@@ -27,7 +27,7 @@ struct Remedy {
     handles: &'static [(Handle, Option<Point>)],
 }
 
-/// Sources: [Liechty10, Armstrong10, Aldrich15].
+/// Sources: [Liechty10, Armstrong10].
 const REMEDIES: [Remedy; 9] = {
     use Handle::*;
     use Trait as Of;

@@ -1,13 +1,16 @@
-//! Handles by which a pattern is graded (knobs): one for each level that has a band. Other handles follow the first of
-//! them, as in the pattern's own grade.
+//! Parameters of a grade: how far the sample size departs from the base at each level, and the steps of the leading
+//! girths from size to size, with which all other lengths grow.
 
 use crate::error::AdviceError;
 use crate::grading::people::{self, Figure};
-use fit::coverage::{Asked, Asks};
+use crate::grading::shares::{self, GIRTH_M, RATIO};
+use body::Sex;
+use fit::coverage::{Asked, Asks, Bound};
+use pattern::grade::{Growth, GrowthError};
 use pattern::{Handle, Style};
 use store::{InOrigin, Origin, Result};
 
-/// Step of amounts in which sizes are drawn, m.
+/// Step of parameters in which sizes are sought, m.
 pub const STEP_M: f64 = 1e-3;
 /// Movement of a handle by which its effect is found, m.
 const TRIED_M: f64 = 5e-3;
@@ -15,9 +18,12 @@ const TRIED_M: f64 = 5e-3;
 const STRONG: f64 = 0.3;
 /// Shares of the greatest amount, tried in turn where a handle cannot move so far.
 const LIMITS: [f64; 5] = [1.0, 0.75, 0.5, 0.35, 0.2];
+/// Least and greatest step of half the leading girth from size to size, mm: sizes of published charts are 25 mm to
+/// 120 mm of girth apart [EN 13402-3, ASTM D5585]; the least leaves room for half sizes.
+const STEPS_MM: [f64; 2] = [6.0, 60.0];
+/// Steps of half the leading girth from which the search starts, mm.
+const STARTS_MM: [i32; 5] = [10, 15, 20, 30, 45];
 
-/// Slope below which a handle does not follow: over the whole range it would move by less than a step.
-const SLIGHT: f64 = 0.01;
 /// Handles that change a width; only these may be chosen for a level. Shortening a garment until it
 /// no longer reaches a level is no way to fit it.
 const WIDTHS: [Handle; 10] = [
@@ -32,8 +38,6 @@ const WIDTHS: [Handle; 10] = [
     Handle::Bicep,
     Handle::Cuff,
 ];
-/// Handles of girths of the trunk, which grow alike where the pattern has no grade.
-const ALIKE: [Handle; 4] = [Handle::Chest, Handle::Waist, Handle::Hip, Handle::Hem];
 /// Bound that stands for none, m.
 const ANY_M: f64 = 1e3;
 
@@ -46,43 +50,84 @@ pub struct Band {
     pub band_m: [f64; 2],
 }
 
-/// A pattern with the handles that change from size to size.
-pub struct Knobs<'a> {
-    style: &'a Style,
-    /// Handles that are turned, one for each level.
-    pub handles: Vec<Handle>,
-    /// Handles that follow the first of these, with their slopes, m per m.
-    pub followers: Vec<(Handle, f64)>,
-    /// Amount of each handle per amount of the first, m per m, in the pattern's own grade.
-    pub habits: Vec<f64>,
-    /// Least and greatest amount of each handle, steps.
-    pub limits: Vec<[i32; 2]>,
+/// A girth that leads, with what grows with it.
+#[derive(Clone, Debug)]
+pub struct Lead {
+    /// Handle of the girth.
+    pub handle: Handle,
+    /// Lengths that grow with it, with their growth in 40 mm of the girth, m.
+    pub told: Vec<(Handle, f64)>,
+    /// Amounts of the handles that make these lengths grow so, m per m of the handle.
+    moves: Vec<(Handle, f64)>,
 }
 
-impl<'a> Knobs<'a> {
-    /// Chooses the handles of a style that change the levels on `somebody`. `own` are the pattern's own sizes, of which
-    /// the style is one.
+/// A pattern with the parameters of its grade.
+pub struct Knobs {
+    /// Growth of the base size.
+    pub growth: Growth,
+    /// Handles by which the sample size departs from the base, one for each level.
+    pub handles: Vec<Handle>,
+    /// Girths that grow from size to size.
+    pub leads: Vec<Lead>,
+    /// Least and greatest departure of each handle, steps.
+    limits: Vec<[i32; 2]>,
+}
+
+/// Sizes of a series: how many, which is the sample, and at which the steps change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Run {
+    /// Number of sizes.
+    pub count: usize,
+    /// First size of the second group of steps; `None` for even steps.
+    pub split: Option<usize>,
+}
+
+impl Run {
+    /// Index of the sample size: the lower one, where two are in the middle.
+    pub fn sample(self) -> usize {
+        self.count.saturating_sub(1) / 2
+    }
+
+    /// Number of groups of equal steps.
+    pub fn groups(self) -> usize {
+        1 + usize::from(self.split.is_some())
+    }
+
+    /// Steps of a group from the sample size to a size.
+    pub fn steps(self, size: usize, group: usize) -> f64 {
+        let within = |size: usize| match (self.split, group) {
+            (None, _) => size,
+            (Some(split), 0) => size.min(split),
+            (Some(split), _) => size.saturating_sub(split),
+        };
+        within(size) as f64 - within(self.sample()) as f64
+    }
+}
+
+impl Knobs {
+    /// Chooses the handles that change the levels on `somebody`, and the girths that lead.
     ///
     /// # Errors
-    /// When no handle changes a level.
-    pub fn of(style: &'a Style, own: &[Style], somebody: &Figure, bands: &[Band], limit_m: f64) -> Result<Self> {
+    /// When no handle changes a level, or one parts a seam.
+    pub fn of(growth: Growth, somebody: &Figure, bands: &[Band], sexes: &[Sex], limit_m: f64) -> Result<Self> {
         let levels: Vec<String> = bands.iter().map(|band| band.level.clone()).collect();
-        let all = style.handles();
-        let changes: Vec<Vec<f64>> = all.iter().map(|handle| changes(style, *handle, somebody, &levels)).collect();
+        let all: Vec<Handle> = growth.handles().collect();
+        let changes: Vec<Vec<f64>> = all.iter().map(|handle| changes(&growth, *handle, somebody, &levels)).collect();
         let handles = chosen(&all, &changes);
-        let no_handle = || AdviceError::NoHandle {
-            style: style.name.clone(),
-            handles: all.iter().map(|handle| handle.as_str()).collect::<Vec<_>>().join(", "),
+        let growing = shares::growing(&handles, &all, sexes);
+        if growing.is_empty() {
+            return Err(no_lead(&growth, &all).into());
+        }
+        let leads: Vec<Handle> = growing.iter().map(|told| told[0].0).collect();
+        let lead = |told: Vec<(Handle, f64)>| -> Result<Lead> {
+            let still = leads.iter().filter(|lead| **lead != told[0].0).map(|lead| (*lead, 0.0));
+            let aims: Vec<(Handle, f64)> = told.iter().copied().chain(still).collect();
+            let moves = growth.aimed(&aims).origin(Origin::Grade)?;
+            let moves = moves.into_iter().map(|(handle, amount_m)| (handle, amount_m / (0.5 * GIRTH_M))).collect();
+            Ok(Lead { handle: told[0].0, told, moves })
         };
-        let lead = *handles.first().ok_or_else(no_handle)?;
-        let slope = |handle: Handle| slope(own, lead, handle);
-        let others = all.iter().copied().filter(|handle| !handles.contains(handle));
-        let follower = |handle: Handle| Some((handle, slope(handle).filter(|slope| slope.abs() > SLIGHT)?));
-        let followers = others.filter_map(follower).collect();
-        // Without a grade to learn from, girths of the trunk grow alike.
-        let alike = |handle: &Handle| if ALIKE.contains(handle) { 1.0 } else { 0.0 };
-        let habits = handles.iter().map(|handle| slope(*handle).unwrap_or_else(|| alike(handle))).collect();
-        let mut knobs = Self { style, handles, followers, habits, limits: Vec::new() };
+        let leads = growing.into_iter().map(lead).collect::<Result<Vec<Lead>>>()?;
+        let mut knobs = Self { growth, handles, leads, limits: Vec::new() };
         knobs.limits = (0..knobs.handles.len()).map(|knob| knobs.limit(knob, limit_m)).collect();
         Ok(knobs)
     }
@@ -91,73 +136,178 @@ impl<'a> Knobs<'a> {
     fn limit(&self, knob: usize, limit_m: f64) -> [i32; 2] {
         let steps = |sign: f64| {
             let turned = |share: &f64| {
-                let turn = (sign * share * limit_m / STEP_M).round() as i32;
-                let mut turns = vec![0; self.handles.len()];
-                turns[knob] = turn;
-                self.drawn(&turns).is_ok().then_some(turn)
+                let turn = (sign * share * limit_m / STEP_M).round();
+                self.growth.sized(&[(self.handles[knob], turn * STEP_M)]).is_ok().then_some(turn as i32)
             };
             LIMITS.iter().find_map(turned).unwrap_or(0)
         };
         [steps(-1.0), steps(1.0)]
     }
 
-    /// Handles of a size with their amounts, m, in the order in which they move. `turns` are in steps.
-    pub fn moves(&self, turns: &[i32]) -> Vec<(Handle, f64)> {
-        let amounts_m: Vec<f64> = turns.iter().map(|turn| f64::from(*turn) * STEP_M).collect();
-        let mut moves = self.moves_by(&amounts_m);
-        moves.iter_mut().for_each(|(_, amount_m)| *amount_m = (*amount_m / STEP_M).round() * STEP_M);
-        moves.retain(|(_, amount_m)| *amount_m != 0.0);
-        moves
+    /// Number of parameters of a run: a departure for each handle, and in each group a step for each lead.
+    fn parameters(&self, run: Run) -> usize {
+        self.handles.len() + run.groups() * self.leads.len()
     }
 
-    /// Moves as [`Self::moves`] does, for amounts of the knobs in m, without rounding.
-    fn moves_by(&self, amounts_m: &[f64]) -> Vec<(Handle, f64)> {
-        let lead_m = amounts_m.first().copied().unwrap_or(0.0);
-        let followers = self.followers.iter().map(|(handle, slope)| (*handle, slope * lead_m));
-        let mut moves: Vec<(Handle, f64)> = self.handles.iter().copied().zip(amounts_m.iter().copied()).collect();
-        moves.extend(followers);
-        moves.retain(|(_, amount_m)| *amount_m != 0.0);
-        moves.sort_by_key(|(handle, _)| *handle);
-        moves
+    /// Index of the parameter that is the step of a lead in a group.
+    fn step_of(&self, group: usize, lead: usize) -> usize {
+        self.handles.len() + group * self.leads.len() + lead
     }
 
-    /// Returns the style of a size.
+    /// Departures of the sample size from the base, m.
+    fn departures(&self, turns: &[i32]) -> Vec<(Handle, f64)> {
+        self.handles.iter().zip(turns).map(|(handle, turn)| (*handle, f64::from(*turn) * STEP_M)).collect()
+    }
+
+    /// Step of a lead in a group of a series, m of half its girth.
+    pub fn step_m(&self, turns: &[i32], group: usize, lead: usize) -> f64 {
+        f64::from(turns[self.step_of(group, lead)]) * STEP_M
+    }
+
+    /// Amounts of the handles that make a size of a run from the base, m.
+    pub fn amounts(&self, turns: &[i32], run: Run, size: usize) -> Vec<(Handle, f64)> {
+        let mut amounts = self.departures(turns);
+        for (group, lead) in (0..run.groups()).flat_map(|group| (0..self.leads.len()).map(move |lead| (group, lead))) {
+            let amount_m = run.steps(size, group) * self.step_m(turns, group, lead);
+            for (handle, by) in &self.leads[lead].moves {
+                match amounts.iter_mut().find(|(known, _)| known == handle) {
+                    Some((_, sum_m)) => *sum_m += by * amount_m,
+                    None => amounts.push((*handle, by * amount_m)),
+                }
+            }
+        }
+        amounts.sort_by_key(|(handle, _)| *handle);
+        amounts
+    }
+
+    /// Style of a size of a run.
     ///
     /// # Errors
-    /// When a handle cannot move so far.
-    pub fn drawn(&self, turns: &[i32]) -> Result<Style> {
-        self.style.moved(&self.moves(turns)).origin(Origin::Grade)
+    /// When a seam comes apart.
+    pub fn drawn(&self, turns: &[i32], run: Run, size: usize) -> Result<Style> {
+        self.growth.sized(&self.amounts(turns, run, size)).origin(Origin::Grade)
     }
 
-    /// Requirements of every person on a size at each level, linear in the turns: the ease on the base, plus the effect
-    /// of each knob. A level that the base does not cover on a person requires nothing.
+    /// Checks that the seams agree in the outer sizes of a run whose steps are the least.
     ///
     /// # Errors
-    /// When a knob cannot turn at all.
-    pub fn asks(&self, figures: &[Figure], bands: &[Band]) -> Result<Vec<Asks>> {
+    /// With the seam that comes apart.
+    pub fn check(&self, run: Run) -> Result<()> {
+        let turns = self.start(run, (STEPS_MM[0] * 1e-3 / STEP_M) as i32);
+        self.drawn(&turns, run, 0)?;
+        self.drawn(&turns, run, run.count - 1)?;
+        Ok(())
+    }
+
+    /// Series whose sample size is the base and whose steps are alike.
+    fn start(&self, run: Run, step: i32) -> Vec<i32> {
+        let departures = self.handles.len();
+        (0..self.parameters(run)).map(|parameter| if parameter < departures { 0 } else { step }).collect()
+    }
+
+    /// Series from which a search starts.
+    pub fn starts(&self, run: Run) -> Vec<Vec<i32>> {
+        STARTS_MM.iter().map(|step| self.start(run, *step)).collect()
+    }
+
+    /// Series of a run in two groups that has the sizes of an even one.
+    pub fn in_groups(&self, turns: &[i32]) -> Vec<i32> {
+        turns.iter().chain(&turns[self.handles.len()..]).copied().collect()
+    }
+
+    /// Bounds of the parameters, with the greatest step as a share of that of published charts.
+    pub fn bounds(&self, run: Run, share: f64) -> Vec<Bound> {
+        let parameters = self.parameters(run);
+        let weights = |own: &[(usize, f64)]| {
+            let mut weights = vec![0.0; parameters];
+            own.iter().for_each(|(parameter, weight)| weights[*parameter] = *weight);
+            weights
+        };
+        let limit = |(knob, limit): (usize, &[i32; 2])| Bound {
+            weights: weights(&[(knob, 1.0)]),
+            between: limit.map(|turn| (f64::from(turn) * share).round()),
+        };
+        let mut bounds: Vec<Bound> = self.limits.iter().enumerate().map(limit).collect();
+        let [least, most] = STEPS_MM.map(|step_mm| step_mm * 1e-3 / STEP_M);
+        for group in 0..run.groups() {
+            let first = self.step_of(group, 0);
+            bounds.push(Bound { weights: weights(&[(first, 1.0)]), between: [least, least + (most - least) * share] });
+            for lead in 1..self.leads.len() {
+                let own = self.step_of(group, lead);
+                bounds.push(Bound {
+                    weights: weights(&[(own, 1.0), (first, -RATIO[0])]),
+                    between: [0.0, ANY_M / STEP_M],
+                });
+                bounds.push(Bound {
+                    weights: weights(&[(own, -1.0), (first, RATIO[1])]),
+                    between: [0.0, ANY_M / STEP_M],
+                });
+            }
+        }
+        bounds
+    }
+
+    /// Sums of parameters that are zero where the sample size is the base and girths grow alike.
+    pub fn habits(&self, run: Run) -> Vec<Vec<f64>> {
+        let one = |parameter: usize, less: Option<usize>| {
+            let weight = |k: usize| f64::from(u8::from(k == parameter)) - f64::from(u8::from(Some(k) == less));
+            (0..self.parameters(run)).map(weight).collect()
+        };
+        let departures = (0..self.handles.len()).map(|knob| one(knob, None));
+        let steps = (0..run.groups()).flat_map(|group| (1..self.leads.len()).map(move |lead| (group, lead)));
+        let steps = steps.map(|(group, lead)| one(self.step_of(group, lead), Some(self.step_of(group, 0))));
+        departures.chain(steps).collect()
+    }
+
+    /// Requirements of every person on every size of a run at each level, linear in the parameters: the ease on the
+    /// base, plus the effect of each parameter. A level that the base does not cover on a person requires nothing.
+    ///
+    /// # Errors
+    /// When a handle cannot move at all.
+    pub fn asks(&self, figures: &[Figure], bands: &[Band]) -> Result<Effects> {
         let levels: Vec<String> = bands.iter().map(|band| band.level.clone()).collect();
-        let base = people::eases(self.style, figures, &levels);
-        let mut tried = Vec::new();
-        for knob in 0..self.handles.len() {
+        let tried = |moves: &[(Handle, f64)]| -> Result<Vec<Vec<f64>>> {
             let turned = |by_m: f64| -> Result<Vec<Vec<Option<f64>>>> {
-                let amounts_m: Vec<f64> = (0..self.handles.len()).map(|k| if k == knob { by_m } else { 0.0 }).collect();
-                let style = self.style.moved(&self.moves_by(&amounts_m)).origin(Origin::Grade)?;
+                let amounts: Vec<(Handle, f64)> = moves.iter().map(|(handle, by)| (*handle, by * by_m)).collect();
+                let style = self.growth.sized(&amounts).origin(Origin::Grade)?;
                 Ok(people::eases(&style, figures, &levels))
             };
-            tried.push([turned(-TRIED_M)?, turned(TRIED_M)?]);
-        }
-        let asked = |person: usize, level: usize| -> Asked {
-            let Some(ease_m) = base[person][level] else {
-                return Asked { per_step: vec![0.0; self.handles.len()], band: [-ANY_M, ANY_M] };
+            let per_step = |(less, more): (&Option<f64>, &Option<f64>)| {
+                less.zip(*more).map_or(0.0, |(less, more)| STEP_M * (more - less) / (2.0 * TRIED_M))
             };
-            let per_step = tried.iter().map(|[less, more]| {
-                let both = less[person][level].zip(more[person][level]);
-                both.map_or(0.0, |(less, more)| STEP_M * (more - less) / (2.0 * TRIED_M))
-            });
-            Asked { per_step: per_step.collect(), band: bands[level].band_m.map(|bound| bound - ease_m) }
+            let (less, more) = (turned(-TRIED_M)?, turned(TRIED_M)?);
+            Ok(less.iter().zip(&more).map(|(less, more)| less.iter().zip(more).map(per_step).collect()).collect())
         };
-        let asks = (0..figures.len()).map(|person| (0..levels.len()).map(|level| asked(person, level)).collect());
-        Ok(asks.collect())
+        let departures = self.handles.iter().map(|handle| tried(&[(*handle, 1.0)])).collect::<Result<Vec<_>>>()?;
+        let leads = self.leads.iter().map(|lead| tried(&lead.moves)).collect::<Result<Vec<_>>>()?;
+        Ok(Effects { base: people::eases(self.growth.style(), figures, &levels), departures, leads })
+    }
+}
+
+/// Eases of everybody on the base, and the effect of a step of each parameter on them, by person and level, m.
+pub struct Effects {
+    base: Vec<Vec<Option<f64>>>,
+    departures: Vec<Vec<Vec<f64>>>,
+    leads: Vec<Vec<Vec<f64>>>,
+}
+
+impl Effects {
+    /// Requirements on each size of a run.
+    pub fn asks(&self, run: Run, bands: &[Band]) -> Vec<Vec<Asks>> {
+        let asked = |size: usize, person: usize, level: usize| -> Asked {
+            let departures = self.departures.iter().map(|by| by[person][level]);
+            let steps = (0..run.groups())
+                .flat_map(|group| self.leads.iter().map(move |by| run.steps(size, group) * by[person][level]));
+            match self.base[person][level] {
+                None => Asked { per_step: departures.chain(steps).map(|_| 0.0).collect(), band: [-ANY_M, ANY_M] },
+                Some(ease_m) => Asked {
+                    per_step: departures.chain(steps).collect(),
+                    band: bands[level].band_m.map(|bound| bound - ease_m),
+                },
+            }
+        };
+        let person = |size: usize, person: usize| (0..bands.len()).map(|level| asked(size, person, level)).collect();
+        (0..run.count).map(|size| (0..self.base.len()).map(|who| person(size, who)).collect()).collect()
     }
 }
 
@@ -179,6 +329,13 @@ pub fn correct(asks: &mut [Asks], eases: &[Vec<Option<f64>>], turns: &[i32], ban
     }
 }
 
+/// Error of a pattern without a girth that leads.
+fn no_lead(growth: &Growth, all: &[Handle]) -> AdviceError {
+    let handles: Vec<&str> = all.iter().map(|handle| handle.as_str()).collect();
+    let refused: Vec<String> = growth.refused().iter().map(|(_, reason)| format!("; {reason}")).collect();
+    AdviceError::NoHandle { style: growth.style().name.clone(), handles: handles.join(", ") + &refused.concat() }
+}
+
 /// Chooses a handle for each level, where there is one: the strongest pairs first, no handle for two levels.
 fn chosen(all: &[Handle], changes: &[Vec<f64>]) -> Vec<Handle> {
     let levels = changes.first().map_or(0, Vec::len);
@@ -198,8 +355,10 @@ fn chosen(all: &[Handle], changes: &[Vec<f64>]) -> Vec<Handle> {
 }
 
 /// Change of each level on somebody by a handle, m per m; 0 where the handle cannot move.
-fn changes(style: &Style, handle: Handle, somebody: &Figure, levels: &[String]) -> Vec<f64> {
-    let moved = |by_m: f64| style.moved(&[(handle, by_m)]).map(|style| somebody.eases(&style, levels));
+fn changes(growth: &Growth, handle: Handle, somebody: &Figure, levels: &[String]) -> Vec<f64> {
+    let moved = |by_m: f64| -> std::result::Result<Vec<Option<f64>>, GrowthError> {
+        growth.sized(&[(handle, by_m)]).map(|style| somebody.eases(&style, levels))
+    };
     match (moved(-TRIED_M), moved(TRIED_M)) {
         (Ok(less), Ok(more)) => {
             let change = |(less, more): (&Option<f64>, &Option<f64>)| {
@@ -209,23 +368,6 @@ fn changes(style: &Style, handle: Handle, somebody: &Figure, levels: &[String]) 
         }
         _ => vec![0.0; levels.len()],
     }
-}
-
-/// Change of the point of measure of `handle` per change of that of `lead` in the pattern's own grade, by least squares
-/// over its sizes. `None` where the grade does not tell.
-fn slope(own: &[Style], lead: Handle, handle: Handle) -> Option<f64> {
-    let lengths = |handle: Handle| -> Option<Vec<f64>> {
-        let point = handle.changes()?;
-        let length_m = |style: &Style| {
-            style.points_of_measure().iter().find(|found| found.point == point).map(|found| found.length_m)
-        };
-        let lengths = own.iter().map(length_m).collect::<Option<Vec<f64>>>()?;
-        let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
-        Some(lengths.iter().map(|length| length - mean).collect())
-    };
-    let (leading, other) = (lengths(lead)?, lengths(handle)?);
-    let spread: f64 = leading.iter().map(|x| x * x).sum();
-    (spread > STEP_M * STEP_M).then(|| leading.iter().zip(&other).map(|(x, y)| x * y).sum::<f64>() / spread)
 }
 
 #[cfg(test)]
@@ -244,5 +386,17 @@ mod tests {
         check(&tee, &[Handle::Chest, Handle::Waist, Handle::Hem]);
         let weak = [[2.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.2, 0.1], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]];
         check(&weak, &[Handle::Chest]);
+    }
+
+    #[test]
+    fn steps_are_counted_from_the_sample_and_change_at_the_split() {
+        let check = |count: usize, split: Option<usize>, expect: &[[f64; 2]]| {
+            let run = Run { count, split };
+            let found: Vec<[f64; 2]> = (0..count).map(|size| [0, 1].map(|group| run.steps(size, group))).collect();
+            assert_eq!(found, expect, "{run:?}");
+        };
+        check(3, None, &[[-1.0, -1.0], [0.0, 0.0], [1.0, 1.0]]);
+        check(5, Some(3), &[[-2.0, 0.0], [-1.0, 0.0], [0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]);
+        check(5, Some(1), &[[-1.0, -1.0], [0.0, -1.0], [0.0, 0.0], [0.0, 1.0], [0.0, 2.0]]);
     }
 }

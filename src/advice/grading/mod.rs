@@ -1,45 +1,42 @@
 //! Grading for a population: the sizes that fit the most people, as a nest with rules, a size chart and a specification
 //! sheet. They are compared with the pattern's own sizes on people held out of the search.
 //!
-//! `people` draws and builds the people, `knobs` chooses the handles by which the pattern is graded, and
-//! `fit::coverage` seeks the sizes. `tally` counts the people whom they fit, `nest` draws the sizes and reads them
-//! again, `drape` dresses some of these people, and `picture` draws the people.
+//! `people` draws and builds the people, `shares` says what grows with which girth, `knobs` makes the parameters of a
+//! grade, and `fit::coverage` seeks them. `tally` counts the people whom the sizes fit, `nest` writes the sizes and reads
+//! them again, `drape` dresses some of these people, and `picture` draws the people.
 
 mod drape;
 mod knobs;
 mod nest;
 mod people;
 mod picture;
+mod seek;
+mod shares;
 mod tally;
 
 use serde::Serialize;
 
 use crate::alteration::one;
 use crate::error::AdviceError;
-use crate::grading::knobs::{Band, Knobs};
+use crate::grading::knobs::{Band, Knobs, Run};
 use crate::grading::people::{Covered, Figure};
 use crate::grading::tally::Tally;
 use body::Sex;
 use engine::stages;
-use fit::coverage::{Asks, Search, Series, Turns};
+use fit::coverage::Turns;
 use geom::units::mm;
-use pattern::Style;
+use pattern::grade::{Growth, Imprint};
+use pattern::{Handle, Style};
 use report::file_part;
 use spec::file::GarmentEntry;
 use spec::{JobSpec, Study, patterns};
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result, StudyError};
 use wardrobe::seams::Specification;
 
 /// Greatest amount of a handle in either direction, m.
 const LIMIT_M: f64 = 0.150;
-/// Share of the people that a size must win for each step by which it departs from the pattern's own grade.
-const PRICE: f64 = 5e-5;
-/// Shares of the greatest amounts, tried in turn where a size cannot be drawn.
-const LIMITS: [f64; 4] = [1.0, 0.75, 0.5, 0.35];
-/// Greatest number of rounds in which sizes are measured as drawn and sought again.
-const ROUNDS: usize = 4;
 /// Accepted counts of sizes and of people.
-const SIZES: std::ops::RangeInclusive<usize> = 1..=12;
+const SIZES: std::ops::RangeInclusive<usize> = 1..=40;
 const PEOPLE: std::ops::RangeInclusive<usize> = 20..=20_000;
 
 /// Request for a grading: population and garment.
@@ -151,6 +148,19 @@ pub struct PartShare {
     pub fits_percent: [f64; 2],
 }
 
+/// A length that grows with a girth from size to size.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Grown {
+    /// Handle of the length.
+    pub handle: &'static str,
+    /// Handle of the girth.
+    pub with: &'static str,
+    /// Growth in 40 mm of the girth, mm; of a girth half of it.
+    pub of_40_mm: f64,
+    /// Growth of the length from size to size, mm; that of the second group last, where steps change.
+    pub steps_mm: Vec<f64>,
+}
+
 /// Result of dressing some of the people whom a size fits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DrapedAgain {
@@ -171,12 +181,21 @@ pub struct Grading {
     pub base: String,
     /// Intended fit, as study files name it.
     pub intended: &'static str,
-    /// Sex of the people.
-    pub sex: Sex,
+    /// Sexes of the people, who are equally many of each.
+    pub sexes: Vec<Sex>,
     /// Numbers of people whose bodies could be built: of the search, and held out.
     pub people: [usize; 2],
-    /// Handles that are turned, one for each level; and handles that follow the first of these.
+    /// Handles by which the sample size departs from the base, one for each level; and girths that grow from size to
+    /// size, each with lengths that grow with it.
     pub handles: [Vec<&'static str>; 2],
+    /// Handles that the pattern has and that cannot move, with the reason: their lengths do not grow.
+    pub refused: Vec<String>,
+    /// Sizes at which the steps change: one, or none where they are even.
+    pub split: Option<String>,
+    /// Lengths that grow with a girth.
+    pub growth: Vec<Grown>,
+    /// Number of rules.
+    pub rules: usize,
     /// Both sets: the pattern's own sizes, and the new ones.
     pub sets: Vec<SizeSet>,
     /// Levels that have a band.
@@ -198,29 +217,28 @@ pub struct Grading {
 ///
 /// # Errors
 /// [`StudyError::NotFound`] for a garment or size that the study does not have. Others for counts out of range, a
-/// garment that women and men wear, a pattern that holds its own seams; when body or pattern fail, or the rules do not
-/// make the sizes again.
+/// pattern that holds its own seams; when body or pattern fail, a seam comes apart in a size, or the rules do not make
+/// the sizes again. Seams are tried before anybody is drawn.
 pub fn grade(study: &Study, wish: &GradeWish) -> Result<Grading> {
     let asked = Asked::of(study, wish)?;
-    let without_seams = || AdviceError::GradeWithoutSeams { pattern: asked.spec.pattern.name.clone() };
-    let seams = asked.spec.seams.as_ref().ok_or_else(without_seams)?;
+    let growth = asked.growth()?;
     let own = asked.own()?;
     let base = &own[asked.base];
-    let drawn = people::drawn(asked.sex, [wish.people, wish.held_out], wish.seed);
+    let drawn = people::drawn(&asked.sexes, [wish.people, wish.held_out], wish.seed);
     // One person is enough to tell the levels, and if one is measured at a height of its own.
     let first = people::figures(&drawn[0][..1], false);
     let somebody = first.first().ok_or(AdviceError::NoFirstPerson)?;
     let covered = somebody.covered(base);
     let bands = bands(asked.entry, &covered, &wish.without)?;
+    let knobs = Knobs::of(growth, somebody, &bands, &asked.sexes, LIMIT_M)?;
+    let even = Run { count: asked.count, split: None };
+    knobs.check(even)?;
     let has_trunk = covered.iter().any(|level| level.has_own_height);
     let [sought, held_out] = drawn.map(|people| people::figures(&people, has_trunk));
-    let middle = in_the_middle(&sought, &bands[0].level).unwrap_or(somebody);
-    let knobs = Knobs::of(base, &own, middle, &bands, LIMIT_M)?;
-    let series = if wish.is_even { Series::Even } else { Series::Rising };
     let crowd = Crowd { figures: &sought, bands: &bands };
-    let turns = sizes(&knobs, crowd, asked.count, series, wish.seed)?;
+    let (run, turns) = seek::sizes(&knobs, crowd, even, wish.is_even, wish.seed)?;
     let names = asked.names();
-    let nest = nest::drawn(&asked, seams, &names, &knobs, &turns)?;
+    let nest = nest::drawn(&asked, &names, &knobs, &turns, run)?;
     let new: Vec<Style> = nest.styles;
     let tallies =
         [&own, &new].map(|styles| [&sought, &held_out].map(|figures| Tally::of(styles, base, figures, &bands)));
@@ -230,7 +248,8 @@ pub fn grade(study: &Study, wish: &GradeWish) -> Result<Grading> {
         let [sought, out] = &tallies[which];
         let mut set = out.set(set, names, sought, &held_out);
         if which == 1 {
-            set.sizes.iter_mut().zip(&turns).for_each(|(size, turns)| size.turns = turned(&knobs, turns));
+            let sizes = set.sizes.iter_mut().enumerate();
+            sizes.for_each(|(number, size)| size.turns = turned(&knobs.amounts(&turns, run, number)));
         }
         set
     };
@@ -246,12 +265,16 @@ pub fn grade(study: &Study, wish: &GradeWish) -> Result<Grading> {
         garment: asked.entry.name.clone(),
         base: asked.spec.size.clone(),
         intended: asked.entry.target.intended.as_str(),
-        sex: asked.sex,
+        sexes: asked.sexes.clone(),
         people: [sought.len(), held_out.len()],
         handles: [
             knobs.handles.iter().map(|handle| handle.as_str()).collect(),
-            knobs.followers.iter().map(|(handle, _)| handle.as_str()).collect(),
+            knobs.leads.iter().map(|lead| lead.handle.as_str()).collect(),
         ],
+        refused: knobs.growth.refused().iter().map(|(_, reason)| reason.to_string()).collect(),
+        split: run.split.map(|split| names[split].clone()),
+        growth: grown(&knobs, &turns, run),
+        rules: nest.rules,
         sets: vec![set(0), set(1)],
         levels: tally::levels(&bands, judged),
         parts: tally::parts(&held_out, &bands, judged),
@@ -290,7 +313,7 @@ struct Asked<'a> {
     base: usize,
     /// Number of sizes to find.
     count: usize,
-    sex: Sex,
+    sexes: Vec<Sex>,
 }
 
 impl<'a> Asked<'a> {
@@ -306,15 +329,11 @@ impl<'a> Asked<'a> {
             Some(base) => one("size", Some(base), names.clone())?,
             None => names.get(middle).cloned().ok_or_else(missing)?,
         };
-        let sexes: Vec<Sex> = study
-            .subjects
-            .iter()
-            .filter(|subject| entry.subjects.contains(&subject.id))
-            .map(|subject| subject.person.measurements.sex)
-            .collect();
-        let sex = *sexes.first().ok_or_else(missing)?;
-        if sexes.iter().any(|other| *other != sex) {
-            return Err(AdviceError::BothSexes { garment: name }.into());
+        let worn = study.subjects.iter().filter(|subject| entry.subjects.contains(&subject.id));
+        let worn: Vec<Sex> = worn.map(|subject| subject.person.measurements.sex).collect();
+        let sexes: Vec<Sex> = [Sex::Female, Sex::Male].into_iter().filter(|sex| worn.contains(sex)).collect();
+        if sexes.is_empty() {
+            return Err(missing().into());
         }
         let count = wish.sizes.unwrap_or(names.len());
         if !SIZES.contains(&count) {
@@ -328,7 +347,26 @@ impl<'a> Asked<'a> {
         }
         let index = names.iter().position(|size| *size == base).unwrap_or(middle);
         let spec = spec::jobs(study).into_iter().find(|job| job.garment == name && job.size == base);
-        Ok(Self { entry, spec: spec.ok_or_else(missing)?, base: index, count, sex })
+        Ok(Self { entry, spec: spec.ok_or_else(missing)?, base: index, count, sexes })
+    }
+
+    /// Growth of the base size.
+    fn growth(&self) -> Result<Growth> {
+        let spec = &self.spec;
+        let without_seams = || AdviceError::GradeWithoutSeams { pattern: spec.pattern.name.clone() };
+        let seams = spec.seams.as_ref().ok_or_else(without_seams)?;
+        let unit = spec.unit.as_deref().and_then(patterns::unit_of);
+        let pieces = patterns::pieces(&spec.pattern, Some(&spec.size), unit)?;
+        let handles: Vec<Handle> =
+            shares::LEADS.into_iter().chain(shares::SHARES.iter().map(|share| share.handle)).collect();
+        let handles: Vec<Handle> = Handle::ALL.into_iter().filter(|handle| handles.contains(handle)).collect();
+        Growth::of(&pieces, &seams.bytes, &seams.name, &handles).origin(Origin::Grade)
+    }
+
+    /// Imprint of the files that are written.
+    fn imprint(&self) -> Result<Imprint> {
+        let unit = self.spec.unit.as_deref().and_then(patterns::unit_of);
+        Ok(Imprint::of(patterns::Nest::read(&self.spec.pattern, unit)?.texts()))
     }
 
     /// Styles of the pattern's own sizes.
@@ -374,55 +412,28 @@ fn in_the_middle<'f>(figures: &'f [Figure], level: &str) -> Option<&'f Figure> {
     all.get(all.len() / 2).copied()
 }
 
-/// Seeks sizes. Where one cannot be drawn, since its handles cannot move so far together, tightens all limits.
-fn sizes(knobs: &Knobs<'_>, crowd: Crowd<'_>, count: usize, series: Series, seed: u64) -> Result<Turns> {
-    let asks: Vec<Vec<Asks>> = vec![knobs.asks(crowd.figures, crowd.bands)?; count];
-    let mut refused = None;
-    for share in LIMITS {
-        let limits: Vec<[i32; 2]> =
-            knobs.limits.iter().map(|limit| limit.map(|turn| (f64::from(turn) * share).round() as i32)).collect();
-        let price = PRICE * crowd.figures.len() as f64;
-        let search = Search { asks: &asks, limits: &limits, habits: &knobs.habits, price, series };
-        match as_drawn(knobs, crowd, &search, seed) {
-            Ok(turns) => return Ok(turns),
-            Err(error) => refused = Some(error),
-        }
-    }
-    refused.map_or(Ok(Vec::new()), Err)
-}
-
-/// Seeks sizes, measures them as drawn, and seeks again near them with the measured eases. Returns the best sizes.
-fn as_drawn(knobs: &Knobs<'_>, crowd: Crowd<'_>, search: &Search<'_>, seed: u64) -> Result<Turns> {
-    let Crowd { figures, bands } = crowd;
-    let levels: Vec<String> = bands.iter().map(|band| band.level.clone()).collect();
-    let mut asks = search.asks.to_vec();
-    let mut turns = search.best(seed);
-    let mut best: Option<(usize, Turns)> = None;
-    for _ in 0..ROUNDS {
-        let styles = turns.iter().map(|turns| knobs.drawn(turns)).collect::<Result<Vec<Style>>>()?;
-        let mut fitted = vec![false; figures.len()];
-        for ((style, asks), turns) in styles.iter().zip(&mut asks).zip(&turns) {
-            let eases = people::eases(style, figures, &levels);
-            knobs::correct(asks, &eases, turns, bands);
-            for (person, asks) in asks.iter().enumerate() {
-                fitted[person] |= fit::coverage::is_met(asks, turns);
-            }
-        }
-        let covered = fitted.into_iter().filter(|fitted| *fitted).count();
-        if best.as_ref().is_some_and(|(most, _)| covered <= *most) {
-            break;
-        }
-        best = Some((covered, turns.clone()));
-        turns = Search { asks: &asks, ..search.clone() }.near(&turns);
-    }
-    Ok(best.map_or(turns, |(_, turns)| turns))
-}
-
 /// Amounts of the handles of a size.
-fn turned(knobs: &Knobs<'_>, turns: &[i32]) -> Vec<Turn> {
-    let turn = |(handle, amount_m): &(pattern::Handle, f64)| Turn {
+fn turned(amounts: &[(Handle, f64)]) -> Vec<Turn> {
+    let turn = |(handle, amount_m): &(Handle, f64)| Turn {
         handle: handle.as_str(),
-        amount_mm: mm(*amount_m).round(),
+        amount_mm: (mm(*amount_m) * 10.0).round() / 10.0,
     };
-    knobs.moves(turns).iter().map(turn).collect()
+    amounts.iter().map(turn).collect()
+}
+
+/// Lengths that grow, with their steps.
+fn grown(knobs: &Knobs, turns: &Turns, run: Run) -> Vec<Grown> {
+    let lead = |(number, lead): (usize, &knobs::Lead)| -> Vec<Grown> {
+        let girth_m = lead.told[0].1;
+        let row = |(handle, told_m): &(Handle, f64)| Grown {
+            handle: handle.as_str(),
+            with: lead.handle.as_str(),
+            of_40_mm: mm(*told_m),
+            steps_mm: (0..run.groups())
+                .map(|group| mm(told_m / girth_m * knobs.step_m(turns, group, number)))
+                .collect(),
+        };
+        lead.told.iter().map(row).collect()
+    };
+    knobs.leads.iter().enumerate().flat_map(lead).collect()
 }

@@ -81,10 +81,16 @@ impl Figure {
     }
 }
 
-/// Draws people of a sex, and from another seed the people held out.
-pub fn drawn(sex: Sex, counts: [usize; 2], seed: u64) -> [Vec<Measurements>; 2] {
+/// Draws people of some sexes, equally many of each, and from another seed the people held out.
+pub fn drawn(sexes: &[Sex], counts: [usize; 2], seed: u64) -> [Vec<Measurements>; 2] {
     let seeds = [seed, seed ^ HELD_OUT];
-    [0, 1].map(|k| population::people(sex, counts[k], &mut Draw::new(seeds[k])))
+    [0, 1].map(|k| {
+        let mut random = Draw::new(seeds[k]);
+        // The first sex has one more where the people cannot be halved.
+        let share = |number: usize| (counts[k] + sexes.len() - 1 - number) / sexes.len().max(1);
+        let drawn = sexes.iter().enumerate().map(|(number, sex)| population::people(*sex, share(number), &mut random));
+        drawn.collect::<Vec<_>>().concat()
+    })
 }
 
 /// Builds the figures of people, in order. Leaves out people whose bodies cannot be built.
@@ -126,7 +132,7 @@ mod tests {
         for model in [Model::Tshirt, Model::Trousers] {
             let draft = &model.drafts()[1];
             let style = Style::read(&draft.pieces, model.seams(), "drafted.seams.toml").expect("our own");
-            let [people, others] = drawn(Sex::Male, [3, 1], 4);
+            let [people, others] = drawn(&[Sex::Male], [3, 1], 4);
             assert_ne!(people[0], others[0], "those held out are others");
             for (person, figure) in people.iter().zip(figures(&people, true)) {
                 let body = bodies::build_body(person).expect("a person that can be");
@@ -138,6 +144,13 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn two_sexes_are_drawn_in_halves() {
+        let [people, held_out] = drawn(&[Sex::Female, Sex::Male], [5, 4], 4);
+        let men = |people: &[Measurements]| people.iter().filter(|person| person.sex == Sex::Male).count();
+        assert_eq!([people.len(), men(&people), held_out.len(), men(&held_out)], [5, 2, 4, 2]);
     }
 
     #[test]

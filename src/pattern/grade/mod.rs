@@ -1,14 +1,17 @@
 //! Grading: derives the pieces of every size from those of the sample size and a grade rule table.
 //!
 //! A text `# n` at a point of the outline assigns grade rule `n` to it. Between two grade points the displacement of
-//! the outline is interpolated linearly in arc length. Points inside move with the nearest point of the outline, unless
-//! they have rules of their own.
+//! the outline is interpolated linearly in arc length, and so is that of a line inside between two of its points.
+//! Other points inside move with the nearest point of the outline, unless they have rules of their own.
 
+mod cardinal;
+mod growth;
 mod table;
 mod ungrade;
 mod unit;
 
-pub use self::table::{GradeError, GradeTable, is_name_of_table, named_in_pattern, read, write};
+pub use self::growth::{Graded, Growth, GrowthError};
+pub use self::table::{GradeError, GradeTable, Imprint, is_name_of_table, named_in_pattern, read, write};
 pub use self::ungrade::{Ungraded, ungrade};
 pub use self::unit::in_unit_of;
 use super::dxf::{PatternFile, Refused};
@@ -65,6 +68,18 @@ pub fn grade(file: &PatternFile, table: &GradeTable) -> Result<PatternFile, Grad
 
 /// Grades one piece into one size.
 fn graded_piece(piece: &Piece, table: &GradeTable, size: usize) -> Result<Piece, String> {
+    let graded = moved_piece(piece, table, size)?;
+    if let Some(place) = self_crossing(&graded.outline) {
+        return Err(format!("the graded outline crosses itself at ({:.2}, {:.2}) mm", mm(place.x), mm(place.y)));
+    }
+    if signed_area(&graded.outline) <= 0.0 {
+        return Err("the graded outline encloses no area".to_owned());
+    }
+    Ok(graded)
+}
+
+/// Moves the points of a piece into one size, whatever its outline becomes.
+fn moved_piece(piece: &Piece, table: &GradeTable, size: usize) -> Result<Piece, String> {
     if let Some([from, to]) = piece.grade_reference {
         let along = to - from;
         if along.y.abs() > HORIZONTAL * along.x.abs() {
@@ -80,15 +95,10 @@ fn graded_piece(piece: &Piece, table: &GradeTable, size: usize) -> Result<Piece,
     let moved_all = |points: &[V2]| -> Vec<V2> { points.iter().map(moved).collect() };
     let inner = |point: &V2| point + field.at_inner(point);
     let inner_all = |points: &[V2]| -> Vec<V2> { points.iter().map(inner).collect() };
-    let moved_lines = |lines: &[Vec<V2>]| -> Vec<Vec<V2>> { lines.iter().map(|line| inner_all(line)).collect() };
+    let moved_lines =
+        |lines: &[Vec<V2>]| -> Vec<Vec<V2>> { lines.iter().map(|line| field.line(line, false)).collect() };
     let moved_ends = |ends: Option<[V2; 2]>| ends.map(|ends| ends.map(|end| moved(&end)));
     let outline: Vec<V2> = piece.outline.iter().zip(&field.steps).map(|(point, step)| point + step).collect();
-    if let Some(place) = self_crossing(&outline) {
-        return Err(format!("the graded outline crosses itself at ({:.2}, {:.2}) mm", mm(place.x), mm(place.y)));
-    }
-    if signed_area(&outline) <= 0.0 {
-        return Err("the graded outline encloses no area".to_owned());
-    }
     Ok(Piece {
         outline,
         drawn_perimeter_m: None,
@@ -102,7 +112,7 @@ fn graded_piece(piece: &Piece, table: &GradeTable, size: usize) -> Result<Piece,
         internal_lines: moved_lines(&piece.internal_lines),
         cut_outs: moved_lines(&piece.cut_outs),
         drill_holes: inner_all(&piece.drill_holes),
-        sew_line: piece.sew_line.as_deref().map(inner_all),
+        sew_line: piece.sew_line.as_deref().map(|line| field.line(line, true)),
         ..piece.clone()
     })
 }
@@ -166,9 +176,29 @@ impl<'a> Field<'a> {
 
     /// Displacement of an inner point: by its grade rule, otherwise that of the nearest point of the outline.
     fn at_inner(&self, point: &V2) -> V2 {
+        self.own(point).unwrap_or_else(|| self.at(point))
+    }
+
+    /// Displacement of an inner point by its own grade rule.
+    fn own(&self, point: &V2) -> Option<V2> {
         let near = self.own.iter().filter(|own| (own.at - point).norm() < ON_OUTLINE_M);
-        let own = near.min_by(|a, b| (a.at - point).norm().total_cmp(&(b.at - point).norm()));
-        own.map_or_else(|| self.at(point), |own| own.step)
+        near.min_by(|a, b| (a.at - point).norm().total_cmp(&(b.at - point).norm())).map(|own| own.step)
+    }
+
+    /// A line inside the piece, moved. Between two of its points that have rules it follows them as the outline does.
+    fn line(&self, points: &[V2], is_closed: bool) -> Vec<V2> {
+        let own = points.iter().enumerate().filter_map(|(vertex, point)| Some((vertex, self.own(point)?)));
+        let known: Vec<(usize, V2)> = own.collect();
+        let (Some((first, _)), Some((last, _))) = (known.first(), known.last()) else {
+            return points.iter().map(|point| point + self.at(point)).collect();
+        };
+        if first == last {
+            return points.iter().map(|point| point + self.at_inner(point)).collect();
+        }
+        let steps = between(points, &known);
+        let follows = |vertex: &usize| is_closed || (first..=last).contains(&vertex);
+        let step = |vertex: usize| if follows(&vertex) { steps[vertex] } else { self.at(&points[vertex]) };
+        (0..points.len()).map(|vertex| points[vertex] + step(vertex)).collect()
     }
 
     /// Displacement of the nearest point of the outline.
@@ -199,7 +229,7 @@ fn between(outline: &[V2], known: &[(usize, V2)]) -> Vec<V2> {
         let length: f64 = (0..count).map(side).sum();
         let mut along = 0.0;
         for i in 0..count {
-            steps[(from + i) % n] = first.lerp(&last, along / length);
+            steps[(from + i) % n] = first.lerp(&last, along / length.max(f64::MIN_POSITIVE));
             along += side(i);
         }
     }

@@ -119,15 +119,53 @@ pub fn is_name_of_table(key: &str) -> bool {
     key.eq_ignore_ascii_case("grade rule table")
 }
 
+/// Imprint of pattern and table alike: who wrote them, with which program, and when.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Imprint {
+    /// Texts as `(key, value)`, such as `Author`.
+    texts: Vec<(String, String)>,
+}
+
+/// Keys of an imprint, in the order of genuine files.
+const IMPRINT: [&str; 5] = ["Author", "Product", "Version", "Creation Date", "Creation Time"];
+
+impl Imprint {
+    /// Imprint of what Toile makes of a pattern file with some texts: its own name and version, and the date and time of
+    /// the pattern. The clock is not asked, so that the same pattern makes the same bytes.
+    #[must_use]
+    pub fn of(pattern: &[(String, String)]) -> Self {
+        let text = |key: &&str| match *key {
+            "Author" | "Product" => Some("Toile".to_owned()),
+            "Version" => Some(env!("CARGO_PKG_VERSION").to_owned()),
+            dated => {
+                let said = pattern.iter().find(|(known, _)| known.eq_ignore_ascii_case(dated));
+                said.map(|(_, value)| value.trim().to_owned()).filter(|value| !value.is_empty())
+            }
+        };
+        let texts = IMPRINT.iter().filter_map(|key| Some(((*key).to_owned(), text(key)?))).collect();
+        Self { texts }
+    }
+
+    /// Texts as `(key, value)`.
+    pub fn texts(&self) -> impl Iterator<Item = (String, String)> + '_ {
+        self.texts.iter().cloned()
+    }
+}
+
 /// Writes a table in millimetres by a standard. `name` is the name by which the pattern file refers to the table.
 #[must_use]
-pub fn write(table: &GradeTable, name: &str, standard: Standard) -> String {
-    let head = match standard {
+pub fn write(table: &GradeTable, name: &str, imprint: &Imprint, standard: Standard) -> String {
+    let first = match standard {
         Standard::Aama => "ANSI/AAMA VERSION: 1.0.0",
         Standard::Astm => D6673,
     };
-    let mut text = format!("{head}\r\nAUTHOR: Toile\r\nUNITS: METRIC\r\n");
-    let name = name.replace(char::is_control, " ");
+    let plain = |text: &str| text.replace(char::is_control, " ");
+    let mut text = format!("{first}\r\n");
+    for (key, value) in &imprint.texts {
+        let _ = write!(text, "{}: {}\r\n", key.to_uppercase(), plain(value));
+    }
+    text.push_str("UNITS: METRIC\r\n");
+    let name = plain(name);
     let (sizes, count) = (table.sizes.join(" "), table.sizes.len());
     let _ = write!(text, "GRADE RULE TABLE: {name}\r\nNUMBER OF SIZES: {count}\r\nSIZE LIST: {sizes}\r\n");
     let _ = write!(text, "SAMPLE SIZE: {}\r\n", table.sizes[table.sample]);

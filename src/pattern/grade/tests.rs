@@ -237,7 +237,11 @@ fn regraded(nest: &PatternFile, sample: &str, standard: dxf::Standard) -> Patter
     let Ungraded { pieces, table, .. } = ungrade(nest, sample).expect("one pattern");
     let written = dxf::write_pieces(&pieces, &[("Sample Size".to_owned(), sample.to_owned())], standard);
     let file = dxf::read(&written, "a.dxf", None).expect("our own file");
-    let text = write(&table, "a", standard);
+    let said = [("CREATION DATE", " 4-12-2017"), ("Style Name", "a"), ("Creation Time", "")];
+    let said = said.map(|(key, value)| (key.to_owned(), value.to_owned()));
+    let text = write(&table, "a", &Imprint::of(&said), standard);
+    let told = "\r\nAUTHOR: Toile\r\nPRODUCT: Toile\r\nVERSION: ";
+    assert!(text.contains(told) && text.contains("\r\nCREATION DATE: 4-12-2017\r\nUNITS: METRIC\r\n"), "{text}");
     let head = if standard == dxf::Standard::Aama { "ANSI/AAMA" } else { "ASTM/D13Proposal 1 Version: D 6673-04\r\n" };
     assert!(text.starts_with(head) && text.contains("\r\nGRADE RULE TABLE: a\r\n"), "{text}");
     let table = read(text.as_bytes(), "a.rul").expect("our own table");

@@ -148,7 +148,7 @@ pub fn outlines_apart_m(style: &Style, other: &Style) -> f64 {
 }
 
 /// Bytes of a seam file with changed `corners_at` of some pieces. The rest of its text stays.
-fn with_corners(
+pub(crate) fn with_corners(
     seam_bytes: &[u8],
     file: &str,
     corners: &BTreeMap<String, Vec<[f64; 2]>>,

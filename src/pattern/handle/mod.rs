@@ -27,9 +27,11 @@ mod tests;
 mod upper;
 mod waist;
 
+pub(crate) use self::drawn::with_corners;
 pub use self::drawn::{Redrawn, outlines_apart_m};
 pub use self::error::HandleError;
 pub use self::kind::Handle;
+pub(crate) use self::solve::least_step;
 
 use std::collections::BTreeMap;
 use std::ops::Range;

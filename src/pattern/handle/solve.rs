@@ -170,7 +170,7 @@ pub fn carried(before: &Polyline, after: &Polyline, arc_m: f64) -> f64 {
 
 /// Least-norm change of the factors that removes the residuals r to first order: J^T (J J^T + e I)^-1 r, with the
 /// Jacobian J in `rows`.
-fn least_step(rows: &[Vec<f64>], missed: &[f64]) -> Vec<f64> {
+pub fn least_step(rows: &[Vec<f64>], missed: &[f64]) -> Vec<f64> {
     let n = missed.len();
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     // Lower Cholesky factor of J J^T + e I.

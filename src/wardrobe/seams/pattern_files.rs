@@ -145,7 +145,7 @@ pub fn convert_to_graded(path: &Path, beside: &Beside<'_>, standard: Standard, t
     let sample = ("Sample Size".to_owned(), table.sizes[table.sample].clone());
     let own = [sample, grade::named_in_pattern(table_name)];
     let texts: Vec<_> = pattern.texts.iter().filter(is_other).cloned().chain(own).collect();
-    let rules = grade::write(&table, table_name, standard);
+    let rules = grade::write(&table, table_name, &grade::Imprint::of(&pattern.texts), standard);
     remarks.extend(notes);
     Ok(Graded { dxf: dxf::write_pieces(&pieces, &texts, standard), rules, notes: remarks })
 }
