@@ -9,7 +9,7 @@ use super::context::Context;
 use super::{CliError, End, Outcome, output};
 use geom::units::{from_mm, mm};
 use render::View;
-use spec::bodies::{self, Lens, Measurements};
+use spec::bodies::{self, FigureFound, Figures, Lens, Measurements};
 use spec::{Given, MEASUREMENTS, Person};
 use store::{Table, Value, files};
 use wardrobe::catalogue;
@@ -26,7 +26,8 @@ pub fn run(context: &Context, command: &Body) -> Outcome {
     match command {
         Body::Measure { file, unit, sex } => {
             let source = files::SourceFile::read(file)?;
-            print(context, &bodies::measured(&read_scan(context, &source, *unit, *sex)?)?)?;
+            let read = bodies::measured(&read_scan(context, &source, *unit, *sex)?)?;
+            print(context, &read, read.figures.as_deref())?;
         }
         Body::Build(arguments) => build(context, arguments)?,
         Body::Pose { file, arm_deg, leg_deg, forward_deg, step_deg, unit, sex, output } => {
@@ -97,13 +98,14 @@ fn build(context: &Context, arguments: &BodyBuild) -> Result<(), CliError> {
         context.say(format_args!("{doubt}"));
     }
     context.say(format_args!("{}", judgement.mass));
-    print(context, &bodies::read_body(&body))
+    print(context, &judgement.read, judgement.read.figures.as_deref())
 }
 
 /// Writes a body's files and prints its measurements.
 fn write(context: &Context, body: &bodies::Body, folder: &Path) -> Result<(), CliError> {
     write_files(context, body, folder)?;
-    print(context, &bodies::read_body(body))
+    let read = bodies::read_body(body);
+    print(context, &read, read.figures.as_deref())
 }
 
 /// Writes mesh, picture, measurements and control mesh of a body.
@@ -143,13 +145,20 @@ pub fn refuse_beside_scan(given: Option<&Given>) -> Result<(), CliError> {
 
 /// Person of a catalogue entry, a file or pictures. Measurements on the command line replace the person's own.
 fn person(context: &Context, arguments: &BodyBuild) -> Result<Person, CliError> {
+    let figures = bodies::figures(arguments.figure.iter().map(String::as_str))?;
+    let mut stored = Figures::default();
     let mut known = match (&arguments.subject, &arguments.measurements) {
         (Some(name), _) => {
             let person = catalogue::subject(&context.store()?, name)?;
             if person.scan.is_some() {
                 refuse_beside_scan(arguments.measured.0.first())?;
+                if !figures.is_empty() {
+                    let problem = format!("--figure does not go with `{name}`, a scan, which has its own figures");
+                    return Err(CliError::Usage(problem));
+                }
                 return Ok(person);
             }
+            stored = person.figures;
             person.measurements
         }
         (None, Some(file)) => spec::read_measurements(file, arguments.sex.map(sex_of))?,
@@ -169,7 +178,7 @@ fn person(context: &Context, arguments: &BodyBuild) -> Result<Person, CliError> 
     };
     known.sex = arguments.sex.map_or(known.sex, sex_of);
     set_given(&mut known, &arguments.measured.0)?;
-    Ok(known.into())
+    Ok(Person { figures: if figures.is_empty() { stored } else { figures }, ..known.into() })
 }
 
 /// Sets given values in measurements.
@@ -213,10 +222,14 @@ fn pictured(
 }
 
 /// Prints measurements as JSON with the documented keys, or as a table, with their standard deviations and the reasons
-/// for these where they are known.
-fn print(context: &Context, read: &impl serde::Serialize) -> Result<(), CliError> {
+/// for these where they are known. Figures that are clear are told above the table.
+fn print(context: &Context, read: &impl serde::Serialize, figures: Option<&[FigureFound]>) -> Result<(), CliError> {
     if context.json {
         return Ok(output::json(read)?);
+    }
+    for found in figures.unwrap_or_default().iter().filter(|found| found.is_clear()) {
+        let (name, amount, sd) = (found.name(), found.amount_mm.abs(), found.sd_mm);
+        context.say(format_args!("{name}: {amount:.0} mm (sd {sd:.0}) beside the standard body of these measurements"));
     }
     let document = serde_json::to_value(read).map_err(std::io::Error::from)?;
     let tenth = |value: &Json| value.as_f64().map_or(Value::Null, output::tenths);
@@ -230,7 +243,12 @@ fn print(context: &Context, read: &impl serde::Serialize) -> Result<(), CliError
         }
         row
     };
-    let rows = document.as_object().into_iter().flatten().filter(|(_, value)| !value.is_object()).map(row);
+    let rows = document
+        .as_object()
+        .into_iter()
+        .flatten()
+        .filter(|(name, value)| !value.is_object() && *name != "figures")
+        .map(row);
     let shown = if confidence.is_object() { 4 } else { 2 };
     context.print(&Table::new(["measurement", "value", "sd", "limited by"].into_iter().take(shown), rows))
 }

@@ -8,8 +8,8 @@ use store::files::SourceFile;
 use store::{InFile, InOrigin, Origin, Result, StudyError};
 
 pub use body::{
-    Body, Dimension, Doubt, Girths, LengthUnit, Mass, Measured, Measurements, Pictured, PicturedLevel, Pose, Scan, Sex,
-    write_obj,
+    Body, Dimension, Doubt, FigureFound, Figures, Girths, LengthUnit, Mass, Measured, Measurements, Pictured,
+    PicturedLevel, Pose, Scan, Sex, write_obj,
 };
 
 /// Builds a body from measurements.
@@ -18,6 +18,22 @@ pub use body::{
 /// When a measurement is impossible.
 pub fn build_body(measurements: &Measurements) -> Result<Body> {
     body::build(measurements).origin(Origin::Body)
+}
+
+/// Builds a body from measurements and figures.
+///
+/// # Errors
+/// When a measurement is impossible, or the body cannot have a figure.
+pub fn build_figured(measurements: &Measurements, figures: &Figures) -> Result<Body> {
+    body::build_figured(measurements, figures).origin(Origin::Body)
+}
+
+/// Reads figures as they are given: `flat_seat`, `flat_seat=strong`, `flat_seat=18`.
+///
+/// # Errors
+/// When a name or an amount is not known.
+pub fn figures<'a>(texts: impl IntoIterator<Item = &'a str>) -> Result<Figures> {
+    Figures::read(texts).origin(Origin::Body)
 }
 
 /// Report of `body build` on a body: its readings, doubts about the measurements, and its mass.
@@ -42,13 +58,25 @@ pub struct Read<'a> {
     /// Further measurements of a tailor, by key.
     #[serde(flatten)]
     pub tailor: BTreeMap<&'static str, Option<f64>>,
+    /// Figures beside the standard body. `None` for a body that does not stand upright.
+    pub figures: Option<Vec<FigureFound>>,
+}
+
+/// Readings on a scan, under the keys of `body measure`.
+#[derive(Debug, serde::Serialize)]
+pub struct ReadScan {
+    /// Girths, lengths and tailor's measurements.
+    #[serde(flatten)]
+    pub measured: Measured,
+    /// Figures beside the standard body. `None` without both feet, or where no standard body is like it.
+    pub figures: Option<Vec<FigureFound>>,
 }
 
 /// Returns all readings on a body.
 #[must_use]
 pub fn read_body(body: &Body) -> Read<'_> {
     let tailor = body.tailor().into_iter().map(|taken| (taken.key, taken.written)).collect();
-    Read { girths: &body.girths, tailor }
+    Read { girths: &body.girths, tailor, figures: body::figures(body).ok() }
 }
 
 /// Returns a built body's readings, the doubts about its measurements, and its mass.
@@ -83,8 +111,8 @@ pub fn whole_scan(scan: &SourceFile, unit: Option<LengthUnit>, sex: Option<Sex>)
 ///
 /// # Errors
 /// When a part of the body is not found.
-pub fn measured(scan: &Scan) -> Result<Measured> {
-    scan.measured().origin(Origin::Body)
+pub fn measured(scan: &Scan) -> Result<ReadScan> {
+    Ok(ReadScan { measured: scan.measured().origin(Origin::Body)?, figures: scan.figures().ok().flatten() })
 }
 
 /// Makes a body that can wear garments from a scan.

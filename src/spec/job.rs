@@ -309,8 +309,8 @@ impl JobSpec {
     }
 }
 
-/// Adds the measurements, scan and pose of a subject to inputs, where it has them.
-pub fn subject_inputs(inputs: &mut Inputs, id: &str, Person { measurements: m, scan, pose }: &Person) {
+/// Adds the measurements, scan, pose and figures of a subject to inputs, where it has them.
+pub fn subject_inputs(inputs: &mut Inputs, id: &str, Person { measurements: m, scan, pose, figures }: &Person) {
     inputs.set(format!("subject.{id}.sex"), sex_name(m));
     for field in MEASUREMENTS.iter() {
         if let Some(value) = field.get(m) {
@@ -326,6 +326,9 @@ pub fn subject_inputs(inputs: &mut Inputs, id: &str, Person { measurements: m, s
     }
     if let Some(pose) = pose {
         inputs.set(format!("subject.{id}.pose"), pose);
+    }
+    if !figures.is_empty() {
+        inputs.set(format!("subject.{id}.figure"), figures);
     }
 }
 

@@ -7,7 +7,7 @@ use crate::evidence::judge::refresh_all;
 use crate::transaction::write;
 
 /// Changes of the schema in order, never edited once released. A database's `user_version` counts those it has.
-const MIGRATIONS: [&str; 18] = [
+const MIGRATIONS: [&str; 19] = [
     include_str!("../../db/migrations/0001_store.sql"),
     include_str!("../../db/migrations/0002_views.sql"),
     include_str!("../../db/migrations/0003_published.sql"),
@@ -26,6 +26,7 @@ const MIGRATIONS: [&str; 18] = [
     include_str!("../../db/migrations/0016_outfits.sql"),
     include_str!("../../db/migrations/0017_drawn.sql"),
     include_str!("../../db/migrations/0018_sizes.sql"),
+    include_str!("../../db/migrations/0019_figures.sql"),
 ];
 
 /// Version of the latest schema.

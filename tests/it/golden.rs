@@ -157,7 +157,7 @@ sizes = [{ name = "S", pattern = "patterns/tshirt-s.dxf" }]
     readers.write_scan("y.obj", 1.7);
     let jobs = readers.plan(STUDY);
     let input = |job: usize, name: &str| {
-        let found = jobs[job].spec.inputs.iter().find(|(input, _)| *input == name);
+        let found = jobs[job].inputs.iter().find(|(input, _)| *input == name);
         let value = found.unwrap_or_else(|| panic!("no input {name}")).1;
         value.chars().take(8).collect::<String>()
     };

@@ -63,7 +63,7 @@ const TWO_LAYERS: &str = "[[outfit]]\nname = \"o\"\nlayers = [\"a\", \"b\"]\n";
 /// The first of the garments, and the end of its table.
 const A: &str = "name = \"a\"\n";
 
-const BY_HAND: [Change; 44] = [
+const BY_HAND: [Change; 45] = [
     (TOP, "name", "name = \"tops\"", "name = \"other\"", Label),
     (TOP, "simulators", "[\"fem\", \"hybrid\"]", "[\"fem\"]", Input),
     (TOP, "edge_length_mm", "name = \"tops\"", "edge_length_mm = 20", Input),
@@ -90,6 +90,7 @@ const BY_HAND: [Change; 44] = [
     ("[[subject]]", "pose", "id = \"x\"", "id = \"x\"\npose = \"arms_30\"", Input),
     ("[[subject]]", "poses", "id = \"x\"", "id = \"x\"\nposes = [\"arms_30\"]", Input),
     ("[[subject]]", "carried_from", "id = \"x\"", "id = \"x\"\npose = \"arms_30\"\ncarried_from = \"arms_20\"", Input),
+    ("[[subject]]", "figure", "id = \"x\"", "id = \"x\"\nfigure = [\"flat_seat\"]", Input),
     ("[[subject]]", "sex", "sex = \"female\"", "sex = \"male\"", Input),
     ("[[garment]]", "name", A, "name = \"other\"\n", Label),
     ("[[garment]]", "style", A, "name = \"a\"\nstyle = \"other\"\n", Label),
@@ -146,7 +147,7 @@ struct Bench {
 impl Bench {
     /// Hashes of the inputs of all jobs of a study.
     fn hashes(&mut self, study: &str) -> BTreeSet<String> {
-        self.readers.plan(study).into_iter().map(|job| job.spec.inputs.hash()).collect()
+        self.readers.plan(study).into_iter().map(|job| job.inputs.hash()).collect()
     }
 
     /// Changes one key of a study.

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use toile::body::{Measurements, Sex, write_obj};
-use toile::engine::{Planned, run};
+use toile::engine::run;
 use toile::pattern::seams::SeamFile;
 use toile::spec::patterns::Model;
-use toile::spec::{Selection, bodies};
+use toile::spec::{JobSpec, Selection, bodies};
 use toile::store::{Store, StudyError};
 use toile::wardrobe::catalogue;
 
@@ -48,10 +48,11 @@ impl Readers {
     }
 
     /// The jobs of the text of a study file.
-    pub fn plan(&mut self, text: &str) -> Vec<Planned> {
+    pub fn plan(&mut self, text: &str) -> Vec<JobSpec> {
         self.write("study.toml", text);
         let study = run::load_study(&self.store, &self.study_file()).unwrap_or_else(|error| panic!("{error}\n{text}"));
-        run::plan(&mut self.store, &study, &Selection::default()).expect("planned")
+        let planned = run::plan(&mut self.store, &study, &Selection::default()).expect("planned");
+        planned.into_iter().map(|job| job.cell.job(&study)).collect()
     }
 
     /// What is wrong with the text of a study file.

@@ -82,7 +82,7 @@ pub fn of(style: &Style, body: &Body, wish: &Wish) -> Result<Vec<(ForFigure, Opt
         let most_mm = own.map_or(0.0, |(handle, _)| wish.limit_mm.unwrap_or_else(|| handle.most_mm()));
         let by_mm = (by_mm.clamp(-most_mm, most_mm) / DRAWN_MM).round() * DRAWN_MM;
         let told = ForFigure {
-            figure: found.name().unwrap_or_default(),
+            figure: found.name(),
             amount_mm: found.amount_mm,
             handle: own.map(|(handle, _)| handle.as_str()),
             by_mm,

@@ -38,8 +38,8 @@ const SLOPE: f64 = 1.5;
 /// Standard deviation of the tape on a smooth skin, m: facets of the mesh, and steps of the search.
 const TAPE: f64 = 0.001;
 
-/// Standard deviation of the place of the crotch point, to front or back, m. Judgement: the skin between the legs is
-/// level over some 20 mm.
+/// Standard deviation of the middle of the thighs, which parts the crotch length into front and back, m. Judgement: that
+/// of the stance.
 const CROTCH: f64 = 0.004;
 
 /// Distance above and below a level over which the change of its girth is measured, m. Judgement.
@@ -53,7 +53,7 @@ const WAIST: &str = "the waist lies at a share of the stature by definition; a p
 const KNEE_CAP: &str = "the knee cap is not told from the skin: its level follows from stature and crotch";
 const JOINTS: &str = "elbow and wrist joint are told from the line of the arm";
 const BASE: &str = "the base of the neck is where the skin bends";
-const FLOOR: &str = "the skin between the legs is level, and leaves the crotch point open to front and back";
+const FLOOR: &str = "front and back are parted above the middle of the thighs, which the stance moves";
 const FLAT: &str = "a flat summit stands out alike over some height";
 
 /// Uncertainty of every key.

@@ -21,9 +21,11 @@ const CENTRAL: f64 = 0.08;
 /// Share of the half width at which front and back of a section meet the sides. Judgement.
 const SIDE: f64 = 0.95;
 
-/// Shares of the distance from the median plane to the shoulder point: of two points of the ridge of the shoulder between
-/// which it is straight, and of the side neck point [mean of the model bodies].
-const RIDGE: [f64; 2] = [0.5, 0.85];
+/// Distances from the median plane, as shares of stature, between which the ridge of the shoulder is straight on narrow
+/// and broad shoulders. Judgement.
+const RIDGE: [f64; 2] = [0.056, 0.085];
+
+/// Distance of the side neck point from the median plane, as a share of that of the shoulder point: of a mean body.
 const NECK: f64 = 0.34;
 
 /// Shares of the way from the half width of the waist to that of the hip at which the flanks are compared.
@@ -107,16 +109,20 @@ impl Tape<'_> {
         taut(self.mesh, self.sites.back_neck, blades, -V3::y()).map(|path| length_of(&path))
     }
 
+    /// Forward position of the middle of the neck, between front and back neck point.
+    fn neck(&self) -> Option<f64> {
+        Some((self.sites.back_neck.y + neck_base::front_neck(self.mesh, self.sites)?.y) / 2.0)
+    }
+
     /// Half of the tape round the chest that lies in front of the sides, where the section is widest.
     fn front_arc(&self) -> Option<f64> {
         let chest = self.trunk(self.sites.chest)?;
         let (low, high) = chest.bounds();
         let middle = self.sites.middle;
         let [left, right] = [low, high].map(|end| middle + SIDE * (end.x - middle));
-        let ends: Vec<f64> = [(left, 1.0), (left, -1.0), (right, 1.0), (right, -1.0)]
-            .into_iter()
-            .map(|(x, side)| tape::edge(&chest, x, side))
-            .collect::<Option<_>>()?;
+        let ends =
+            [(left, 1.0), (left, -1.0), (right, 1.0), (right, -1.0)].map(|(x, side)| tape::edge(&chest, x, side));
+        let ends: Vec<f64> = ends.into_iter().collect::<Option<_>>()?;
         let side = ends.iter().sum::<f64>() / ends.len() as f64;
         let ring = hull::convex_hull(&chest.points);
         let part = |(a, b): (&V2, &V2)| {
@@ -131,20 +137,21 @@ impl Tape<'_> {
         Some(ring.iter().zip(ring.iter().cycle().skip(1)).map(part).sum::<f64>() / 2.0)
     }
 
-    /// Fall from side neck point to shoulder point, and distance of the shoulder point in front: means of both sides. The
-    /// fall is that of the ridge of the shoulder, so that it does not depend on where the ridge is thought to end.
+    /// Fall from side neck point to shoulder point, and distance of the shoulder point in front of the middle between front
+    /// and back neck point: means of both sides. The fall is that of the ridge of the shoulder, so that it does not depend
+    /// on where the ridge is thought to end.
     fn shoulders(&self) -> Option<[f64; 2]> {
         let [right, left] = self.sites.shoulder;
         let middle = self.sites.middle;
         let mirrored = landmarks::mirrored(self.mesh, middle);
         let left = V3::new(2.0 * middle - left.x, left.y, left.z);
         let ceiling = self.sites.neck.height;
+        let neck = self.neck()?;
         let read = |mesh: &TriMesh, shoulder: V3| {
-            let neck = neck_base::side_neck(mesh, self.sites, shoulder)?;
-            let out = shoulder.x - middle;
-            let [inner, outer] = RIDGE.map(|share| landmarks::shoulder_top(mesh, middle + share * out, ceiling));
-            let fall = (inner?.z - outer?.z) / (RIDGE[1] - RIDGE[0]) * (1.0 - NECK);
-            Some([fall, shoulder.y - neck.y])
+            let top = |share: f64| landmarks::shoulder_top(mesh, middle + share * self.stature, ceiling);
+            let slope = (top(RIDGE[0])?.z - top(RIDGE[1])?.z) / ((RIDGE[1] - RIDGE[0]) * self.stature);
+            let fall = slope * (1.0 - NECK) * (shoulder.x - middle);
+            Some([fall, shoulder.y - neck])
         };
         let (right, left) = (read(self.mesh, right)?, read(&mirrored, left)?);
         Some([0, 1].map(|i| (right[i] + left[i]) / 2.0))

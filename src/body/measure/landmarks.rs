@@ -3,7 +3,7 @@
 use super::slices::{Sliced, Slices, steps};
 use super::tape;
 use crate::Sex;
-use geom::section::{Plane, section};
+use geom::section::{Outline, Plane, section};
 use geom::{TriMesh, V3};
 
 /// Least girth of an outline across the median plane that belongs to the trunk, m. Judgement.
@@ -104,12 +104,40 @@ pub(crate) fn armpit_of_spread(mesh: &TriMesh, shoulder: V3, stature: f64) -> Op
 }
 
 /// Lowest point of the skin between the thighs, in the median plane just above the height of the crotch.
-pub(crate) fn crotch_point(mesh: &impl Sliced, crotch: f64, middle: f64) -> Option<V3> {
-    let outline = tape::trunk_outline(mesh, crotch, middle)?;
+pub(crate) fn crotch_point(mesh: &TriMesh, crotch: f64) -> Option<V3> {
+    let outline = tape::trunk_outline(mesh, crotch, 0.0)?;
     let next = outline.points.iter().cycle().skip(1);
-    let crossings = outline.points.iter().zip(next).filter(|(a, b)| (a.x > middle) != (b.x > middle));
-    let places: Vec<f64> = crossings.map(|(a, b)| a.y + (b.y - a.y) * (middle - a.x) / (b.x - a.x)).collect();
-    (!places.is_empty()).then(|| V3::new(middle, places.iter().sum::<f64>() / places.len() as f64, crotch))
+    let crossings = outline.points.iter().zip(next).filter(|(a, b)| (a.x > 0.0) != (b.x > 0.0));
+    let places: Vec<f64> = crossings.map(|(a, b)| a.y + (b.y - a.y) * (-a.x) / (b.x - a.x)).collect();
+    (!places.is_empty()).then(|| V3::new(0.0, places.iter().sum::<f64>() / places.len() as f64, crotch))
+}
+
+/// Distance below the crotch at which the middle of the thighs is read, m: that of the thigh girth.
+const THIGHS: f64 = 0.02;
+
+/// Point of the skin between the legs in the median plane above the middle of the thighs, where the inseams of trousers
+/// meet. The lowest point lies anywhere along a skin that is nearly level; the thighs do not.
+pub(crate) fn fork(mesh: &TriMesh, crotch: f64, middle: f64) -> Option<V3> {
+    let level = Plane::horizontal(crotch - THIGHS);
+    let outlines = section(mesh, &level);
+    // Of the outlines on a side, the legs lie inside the hands.
+    let depth = |side: f64| {
+        let inner = |outline: &Outline| {
+            let (low, high) = outline.bounds();
+            (side * (low.x - middle)).min(side * (high.x - middle))
+        };
+        let limbs = outlines.iter().filter(|outline| inner(outline) > 0.0 && tape::is_limb(outline));
+        let leg = limbs.min_by(|a, b| inner(a).total_cmp(&inner(b)))?;
+        Some((leg.bounds().0.y + leg.bounds().1.y) / 2.0)
+    };
+    let y = (depth(1.0)? + depth(-1.0)?) / 2.0;
+    let plane = Plane { origin: V3::new(middle, 0.0, 0.0), u: V3::y(), v: V3::z() };
+    let outlines = section(mesh, &plane);
+    let edges = outlines.iter().flat_map(|outline| outline.points.iter().zip(outline.points.iter().cycle().skip(1)));
+    let crossings =
+        edges.filter(|(a, b)| (a.x > y) != (b.x > y)).map(|(a, b)| a.y + (b.y - a.y) * (y - a.x) / (b.x - a.x));
+    let lowest = crossings.filter(|z| *z > crotch - THIGHS).min_by(f64::total_cmp)?;
+    Some(V3::new(middle, y, lowest))
 }
 
 /// Foremost point of one side of the chest at height `z`, or on a flat chest the usual place of the nipple.

@@ -154,11 +154,11 @@ fn scye_depth(mesh: &TriMesh, marks: &Marks, level: f64) -> Option<Vec<V3>> {
     taut(mesh, marks.back_neck, median_point(mesh, level, marks.middle, Side::Back)?, -V3::y())
 }
 
-/// Crotch length front or back: from the waist level in the median plane to the crotch point. `heights` are those of
-/// crotch and waist.
+/// Crotch length front or back: from the waist level in the median plane to the fork, above the middle of the thighs. The
+/// heights are those of crotch and waist.
 pub(super) fn crotch_length(mesh: &TriMesh, [crotch, waist]: [f64; 2], middle: f64, side: Side) -> Option<Vec<V3>> {
     let out = if side == Side::Front { V3::y() } else { -V3::y() };
-    taut(mesh, median_point(mesh, waist, middle, side)?, landmarks::crotch_point(mesh, crotch, middle)?, out)
+    taut(mesh, median_point(mesh, waist, middle, side)?, landmarks::fork(mesh, crotch, middle)?, out)
 }
 
 /// Distance of the armscye outside the armpit, m. Nearer, its plane would cut the trunk.

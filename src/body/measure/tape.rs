@@ -54,7 +54,12 @@ pub(super) fn edge(outline: &Outline, x: f64, side: f64) -> Option<f64> {
 
 /// True if an outline has the size of a limb and lies to the right of `x`.
 pub(super) fn is_right_limb(outline: &Outline, x: f64) -> bool {
-    outline.bounds().0.x > x && hull::perimeter(&outline.points) > SMALLEST_PART
+    outline.bounds().0.x > x && is_limb(outline)
+}
+
+/// True if an outline has at least the size of a limb.
+pub(super) fn is_limb(outline: &Outline) -> bool {
+    hull::perimeter(&outline.points) > SMALLEST_PART
 }
 
 /// Girth of the outline round `point` in the plane through `point` normal to `normal`, m. Of several outlines the

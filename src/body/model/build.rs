@@ -77,7 +77,7 @@ fn find_landmarks(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Land
             .ok_or_else(|| missing("front neck", front_height))?,
         armpit: [armpit, V3::new(-armpit.x, armpit.y, armpit.z)],
         bust: [bust(1.0)?, bust(-1.0)?],
-        crotch: landmarks::crotch_point(mesh, sites.crotch, 0.0).ok_or_else(|| missing("crotch", sites.crotch))?,
+        crotch: landmarks::crotch_point(mesh, sites.crotch).ok_or_else(|| missing("crotch", sites.crotch))?,
     })
 }
 

@@ -3,21 +3,16 @@
 
 use super::build::{self, build};
 use super::fit::{self, Fit};
+use super::template::Template;
 use crate::measure::{figure_tape, sites};
 use crate::people::dimension::Dimension;
-use crate::people::figures::{ByTrait, Figures, TRAITS, Trait};
+use crate::people::figures::{ByTrait, DIMENSIONS, Figures, TRAITS, Trait};
 use crate::people::profile::Profile;
 use crate::repair::feet::Feet;
-use crate::{Body, BodyError, Girths, Measurements};
+use crate::{Body, BodyError, Girths, Measurements, Sex};
 use geom::TriMesh;
 use geom::units::mm;
-
-/// Traits that are a dimension, and sign of their amount in it. The body rise falls with the height of the crotch.
-const DIMENSIONS: [(Trait, Dimension, f64); 3] = [
-    (Trait::UpperArm, Dimension::UpperArmGirth, 1.0),
-    (Trait::Thigh, Dimension::ThighGirth, 1.0),
-    (Trait::Rise, Dimension::Inseam, -1.0),
-];
+use serde::ser::SerializeStruct as _;
 
 /// Greatest number of fits with other doses, and error of a trait below which they end, m. Judgement.
 const TRIES: usize = 8;
@@ -36,8 +31,7 @@ const MOST: f64 = 0.07;
 /// are not named do not differ.
 ///
 /// # Errors
-/// As [`build`], and [`BodyError::Figure`] for a figure that another given measurement decides, that the sex does not have,
-/// or that the body cannot take.
+/// As [`build`] and [`Figures::check`], and [`BodyError::Figure`] for a figure that the body cannot take.
 ///
 /// # Examples
 /// ```
@@ -46,44 +40,26 @@ const MOST: f64 = 0.07;
 /// let body = body::build_figured(&Measurements::of(Sex::Male, 1.78), &Figures::read(["flat_seat"])?)?;
 /// let found = body::figures(&body)?;
 /// let clear: Vec<_> = found.iter().filter(|found| found.is_clear()).map(|found| found.name()).collect();
-/// assert_eq!(clear, [Some("flat_seat")]);
+/// assert_eq!(clear, ["flat_seat"]);
 /// # Ok::<(), body::BodyError>(())
 /// ```
 pub fn build_figured(known: &Measurements, figures: &Figures) -> Result<Body, BodyError> {
     if figures.is_empty() {
         return build(known);
     }
-    let profile = departed(known, figures)?;
-    let asked: ByTrait<f64> =
-        std::array::from_fn(|i| if is_dimension(Trait::ALL[i]) { 0.0 } else { figures.amount(Trait::ALL[i]) });
+    figures.check(known)?;
+    let mut profile = Profile::new(known)?;
+    for (of, dimension, sign) in DIMENSIONS {
+        if figures.amount(of) != 0.0 {
+            profile.depart(dimension, sign * figures.amount(of));
+        }
+    }
+    let asked = Trait::ALL.map(|of| if is_dimension(of) { 0.0 } else { figures.amount(of) });
     bent(&profile, asked).and_then(build::describe).map_err(build::unformed)
 }
 
 fn is_dimension(of: Trait) -> bool {
     DIMENSIONS.iter().any(|(other, ..)| *other == of)
-}
-
-/// Profile of a person whose dimensions depart from their estimates by figures.
-fn departed(known: &Measurements, figures: &Figures) -> Result<Profile, BodyError> {
-    let mut profile = Profile::new(known)?;
-    let refused = |of: Trait, problem: String, accepted: &str| {
-        let figure = of.figure(figures.amount_mm(of)).unwrap_or_default().to_owned();
-        BodyError::Figure { figure, problem, accepted: accepted.to_owned() }
-    };
-    for (of, dimension, sign) in DIMENSIONS {
-        let amount = figures.amount(of);
-        if amount != 0.0 && known.get(dimension).is_some() {
-            let problem = format!("`{}` is given, and says it already", dimension.key());
-            return Err(refused(of, problem, "one of them"));
-        }
-        if amount != 0.0 {
-            profile.depart(dimension, sign * amount);
-        }
-    }
-    if figures.amount(Trait::Bust) != 0.0 && known.sex == crate::Sex::Male {
-        return Err(refused(Trait::Bust, "the body is a man's".to_owned(), "it for women"));
-    }
-    Ok(profile)
 }
 
 /// Fits a skin whose traits differ from those of the skin without bends by the amounts `asked`, m.
@@ -95,6 +71,11 @@ fn bent(profile: &Profile, asked: ByTrait<f64>) -> Result<Fit<'_>, BodyError> {
         return Ok(plain);
     }
     let before = read(&plain);
+    if let Some(i) = (0..TRAITS).find(|&i| asked[i] != 0.0 && before[i].is_none()) {
+        let problem = "the body does not show where it is".to_owned();
+        let figure = Trait::ALL[i].name(asked[i]).to_owned();
+        return Err(BodyError::Figure { figure, problem, accepted: "a body without it".to_owned() });
+    }
     let off = |fit: &Fit<'_>| -> ByTrait<f64> {
         let now = read(fit);
         std::array::from_fn(|i| {
@@ -125,18 +106,20 @@ fn bent(profile: &Profile, asked: ByTrait<f64>) -> Result<Fit<'_>, BodyError> {
     }
     let (_, fit, error) = best.expect("there is a first try");
     let unmet = (0..TRAITS).find(|&i| error[i].abs() > TOLERANCE.max(TOLERATED * asked[i].abs()));
-    let Some(i) = unmet else { return Ok(fit) };
-    let which = if asked[i] == 0.0 {
-        (0..TRAITS).max_by(|&a, &b| asked[a].abs().total_cmp(&asked[b].abs())).unwrap_or(i)
-    } else {
-        i
+    unmet.map_or(Ok(fit), |i| Err(refusal(i, &asked, &error)))
+}
+
+/// Error of a trait that is not met. Where it is one that was to stay, the greatest figure is told.
+fn refusal(unmet: usize, asked: &ByTrait<f64>, error: &ByTrait<f64>) -> BodyError {
+    let greatest = (0..TRAITS).max_by(|&a, &b| asked[a].abs().total_cmp(&asked[b].abs())).unwrap_or(unmet);
+    let told = if asked[unmet] == 0.0 { greatest } else { unmet };
+    let [amount, reached] = [asked[told], asked[told] - error[told]].map(|amount| mm(amount.abs()));
+    let problem = match told == unmet {
+        true => format!("{reached:.0} mm of it are reached on this body"),
+        false => format!("on this body it changes the {:?} too", Trait::ALL[unmet]),
     };
-    let figure = Trait::ALL[which].figure(asked[which]).unwrap_or_default();
-    Err(BodyError::Figure {
-        figure: format!("{figure}={:.0}", mm(asked[which].abs())),
-        problem: format!("{:.0} mm of it are reached on this body", mm((asked[i] - error[i]).abs())),
-        accepted: "less of it".to_owned(),
-    })
+    let figure = format!("{}={amount:.0}", Trait::ALL[told].name(asked[told]));
+    BodyError::Figure { figure, problem, accepted: "less of it".to_owned() }
 }
 
 fn read(fit: &Fit<'_>) -> ByTrait<Option<f64>> {
@@ -147,14 +130,14 @@ fn read(fit: &Fit<'_>) -> ByTrait<Option<f64>> {
 const GAINS: ByTrait<f64> = [1.0, 1.2, 1.0, 2.2, 2.5, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 
 /// Trait of a body beside that of its standard body.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FigureFound {
     /// Trait.
-    #[serde(rename = "trait")]
     pub of: Trait,
     /// Amount, mm, above 0 for the longer or fuller one.
     pub amount_mm: f64,
-    /// Standard deviation of the amount, mm: that of the tape, and of the points that it is laid by.
+    /// Standard deviation of the amount, mm: that of the points by which the tape is laid; of a skin other than that of the
+    /// built bodies also that of the standard body, whose shape is less than sure.
     pub sd_mm: f64,
 }
 
@@ -165,10 +148,23 @@ impl FigureFound {
         self.amount_mm.abs() > 2.0 * self.sd_mm
     }
 
-    /// Name of the figure, such as `flat_seat`. `None` where the trade has no name for it.
+    /// Name of the figure: `flat_seat`.
     #[must_use]
-    pub fn name(&self) -> Option<&'static str> {
-        self.of.figure(self.amount_mm)
+    pub fn name(&self) -> &'static str {
+        self.of.name(self.amount_mm)
+    }
+}
+
+/// Serialised as `trait`, `amount_mm`, `sd_mm` and, where the amount is clear, the name of the `figure`.
+impl serde::Serialize for FigureFound {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let tenths = |value: f64| (10.0 * value).round() / 10.0;
+        let mut fields = serializer.serialize_struct("FigureFound", 4)?;
+        fields.serialize_field("trait", &self.of)?;
+        fields.serialize_field("amount_mm", &tenths(self.amount_mm))?;
+        fields.serialize_field("sd_mm", &tenths(self.sd_mm))?;
+        fields.serialize_field("figure", &self.is_clear().then(|| self.name()))?;
+        fields.end()
     }
 }
 
@@ -192,13 +188,17 @@ const MAIN: [Dimension; 6] = [
 /// [`BodyError::MissingPart`] for a mesh that shows no standing person, and the errors of [`build`] where no standard body
 /// has these measurements.
 pub fn figures(body: &Body) -> Result<Vec<FigureFound>, BodyError> {
-    let (found, girths) = seen(&body.mesh, body)?;
-    let main = known(&girths, body, &MAIN);
+    of_mesh(&body.mesh, body.sex)
+}
+
+/// Finds the traits of an upright mesh.
+pub(crate) fn of_mesh(mesh: &TriMesh, sex: Sex) -> Result<Vec<FigureFound>, BodyError> {
+    let (found, girths) = seen(mesh, sex)?;
+    let main = known(&girths, sex, &MAIN);
     let expected = Profile::new(&main)?;
     let all: Vec<Dimension> = MAIN.into_iter().chain(DIMENSIONS.map(|(_, dimension, _)| dimension)).collect();
-    let standard = build(&known(&girths, body, &all)).or_else(|_| build(&main))?;
-    let (usual, _) = seen(&standard.mesh, body)?;
-    let stature = girths.get(Dimension::Stature).unwrap_or_default();
+    let standard = build(&known(&girths, sex, &all)).or_else(|_| build(&main))?;
+    let (usual, _) = seen(&standard.mesh, sex)?;
     let amount = |of: Trait| {
         let as_dimension = DIMENSIONS.iter().find(|(other, ..)| *other == of);
         match as_dimension {
@@ -206,27 +206,25 @@ pub fn figures(body: &Body) -> Result<Vec<FigureFound>, BodyError> {
             None => Some(found[of as usize]? - usual[of as usize]?),
         }
     };
-    let told = |of: Trait| {
-        Some(FigureFound {
-            of,
-            amount_mm: mm(amount(of)?),
-            sd_mm: mm(DEVIATIONS[of as usize] * stature / USUAL_STATURE),
-        })
-    };
+    let scale = girths.get(Dimension::Stature).unwrap_or(USUAL_STATURE) / USUAL_STATURE;
+    let is_ours = Template::of(sex).is_skin_of(mesh);
+    let deviation = |of: Trait| DEVIATIONS[of as usize].hypot(if is_ours { 0.0 } else { SHAPES[of as usize] }) * scale;
+    let told = |of: Trait| Some(FigureFound { of, amount_mm: mm(amount(of)?), sd_mm: mm(deviation(of)) });
     Ok(Trait::ALL.into_iter().filter_map(told).collect())
 }
 
 /// Readings of the traits on a mesh, and its girths.
-fn seen(mesh: &TriMesh, body: &Body) -> Result<(ByTrait<Option<f64>>, Girths), BodyError> {
-    let (sites, _) = sites::find_sites(mesh, Some(body.sex), Feet::BOTH)?;
+fn seen(mesh: &TriMesh, sex: Sex) -> Result<(ByTrait<Option<f64>>, Girths), BodyError> {
+    let (sites, _) = sites::find_sites(mesh, Some(sex), Feet::BOTH)?;
     let girths = sites::girths_at(mesh, &sites)?;
-    Ok((figure_tape::read(mesh, &sites, &girths, body.sex), girths))
+    Ok((figure_tape::read(mesh, &sites, &girths, sex), girths))
 }
 
-fn known(girths: &Girths, body: &Body, dimensions: &[Dimension]) -> Measurements {
-    let mut known = Measurements::of(body.sex, f64::NAN);
+fn known(girths: &Girths, sex: Sex, dimensions: &[Dimension]) -> Measurements {
+    let mut known = Measurements::of(sex, f64::NAN);
     for &dimension in dimensions {
-        known.set(dimension, girths.get(dimension));
+        let [least, greatest] = dimension.range();
+        known.set(dimension, girths.get(dimension).filter(|value| (least..=greatest).contains(value)));
     }
     known
 }
@@ -237,6 +235,11 @@ fn known(girths: &Girths, body: &Body, dimensions: &[Dimension]) -> Measurements
 const DEVIATIONS: ByTrait<f64> =
     [0.0040, 0.0040, 0.0030, 0.0060, 0.0040, 0.0035, 0.0040, 0.0050, 0.0040, 0.0015, 0.0040];
 const USUAL_STATURE: f64 = 1.7;
+
+/// Standard deviations of the standard body's shape from that of other people of its measurements, m, on a body of 1.7 m:
+/// root mean squares of what is found on the six reference bodies, men and women, slim and heavy. Dimensions are beside
+/// the survey, and flanks beside each other.
+const SHAPES: ByTrait<f64> = [0.015, 0.014, 0.006, 0.005, 0.034, 0.009, 0.0065, 0.0, 0.0, 0.0, 0.0];
 
 #[cfg(test)]
 #[path = "figured_tests.rs"]

@@ -135,6 +135,11 @@ impl Template {
         Self { stature, parts: figure.parts(), rings, vertices, images, triangles: mesh.triangles }
     }
 
+    /// True if a mesh is this skin carried to a figure.
+    pub fn is_skin_of(&self, mesh: &TriMesh) -> bool {
+        self.triangles == mesh.triangles
+    }
+
     /// Carries the skin to a figure, stretched in height so that it stands on the floor and has the requested stature.
     pub fn dress(&self, figure: &Figure) -> TriMesh {
         let parts = figure.parts();

@@ -1,10 +1,12 @@
 //! Figures that a tailor alters for: signed traits of a body, and their names in the trade.
 //!
 //! The amount of a trait is a length on the body by which a pattern maker can cut. Usual amounts are those of books on
-//! pattern alteration [Liechty 2010; Armstrong 2014; Aldrich 2015].
+//! pattern alteration (Liechty, Rasband and Pottberg-Steineckert; Armstrong; Aldrich), less where a taut tape can change
+//! by no more on a body that keeps its girths.
 
-use crate::BodyError;
-use geom::units::{from_mm, mm};
+use super::dimension::Dimension;
+use crate::{BodyError, Measurements, Sex};
+use geom::units::from_mm;
 use std::collections::BTreeMap;
 
 /// Trait in which a body may depart from the standard body of its measurements. An amount above 0 is the longer or
@@ -12,9 +14,10 @@ use std::collections::BTreeMap;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Trait {
-    /// Crotch length back: taut from the waist level at centre back to the crotch point.
+    /// Crotch length back: taut from the waist level at centre back to the point between the legs above the middle of the
+    /// thighs.
     Seat,
-    /// Crotch length front: taut from the waist level at centre front to the crotch point.
+    /// Crotch length front: taut from the waist level at centre front to the same point.
     Abdomen,
     /// Length of the back between blades and seat beside that of the side: below 0 in a hollow back. The bend of the
     /// trunk's axis at the waist times the distance from side to back.
@@ -25,7 +28,7 @@ pub enum Trait {
     Bust,
     /// Fall from the side neck point to the shoulder point.
     ShoulderSlope,
-    /// Distance by which the shoulder point lies in front of the side neck point.
+    /// Distance by which the shoulder point lies in front of the middle of the neck, between front and back neck point.
     ShoulderForward,
     /// Upper arm girth.
     UpperArm,
@@ -50,13 +53,21 @@ impl Trait {
         [Seat, Abdomen, SwayBack, UpperBack, Bust, ShoulderSlope, ShoulderForward, UpperArm, Thigh, Rise, HighHip]
     };
 
-    /// Name of the figure with more (`amount` above 0) or less of the trait. `None` where the trade has no name for it.
+    /// Name of the figure with more (`amount` of 0 and above) or less of the trait.
     #[must_use]
-    pub fn figure(self, amount: f64) -> Option<&'static str> {
+    pub fn name(self, amount: f64) -> &'static str {
         let sign = if amount < 0.0 { -1.0 } else { 1.0 };
-        NAMED.iter().find(|named| named.of == self && named.sign == sign).map(|named| named.name)
+        let named = NAMED.iter().find(|named| named.of == self && named.sign == sign);
+        named.expect("every trait has two names").name
     }
 }
+
+/// Traits that are a dimension, and sign of their amount in it. The body rise falls with the height of the crotch.
+pub(crate) const DIMENSIONS: [(Trait, Dimension, f64); 3] = [
+    (Trait::UpperArm, Dimension::UpperArmGirth, 1.0),
+    (Trait::Thigh, Dimension::ThighGirth, 1.0),
+    (Trait::Rise, Dimension::Inseam, -1.0),
+];
 
 /// Named figure.
 struct Named {
@@ -78,22 +89,23 @@ const USUAL: usize = 1;
 /// Greatest amount of a figure, as a multiple of its strong one. Judgement: what is beyond needs another size.
 const MOST: f64 = 1.2;
 
-/// The erect back is the one with less than the books say: a tape can come no nearer than straight.
-const NAMED: [Named; 20] = {
+const NAMED: [Named; 2 * TRAITS] = {
     use Trait::*;
     [
         named("flat_seat", Seat, -1.0, [8.0, 15.0, 25.0]),
         named("prominent_seat", Seat, 1.0, [8.0, 15.0, 25.0]),
-        named("hollow_abdomen", Abdomen, -1.0, [4.0, 6.0, 8.0]),
+        named("hollow_abdomen", Abdomen, -1.0, [2.0, 4.0, 6.0]),
         named("prominent_abdomen", Abdomen, 1.0, [8.0, 14.0, 20.0]),
         named("sway_back", SwayBack, -1.0, [5.0, 12.0, 20.0]),
+        named("straight_back", SwayBack, 1.0, [4.0, 8.0, 12.0]),
         named("round_back", UpperBack, 1.0, [5.0, 10.0, 16.0]),
         named("erect_back", UpperBack, -1.0, [3.0, 5.0, 7.0]),
         named("full_bust", Bust, 1.0, [4.0, 8.0, 12.0]),
-        named("small_bust", Bust, -1.0, [3.0, 6.0, 9.0]),
+        named("small_bust", Bust, -1.0, [3.0, 5.0, 7.0]),
         named("sloping_shoulders", ShoulderSlope, 1.0, [5.0, 10.0, 15.0]),
         named("square_shoulders", ShoulderSlope, -1.0, [5.0, 10.0, 15.0]),
         named("forward_shoulders", ShoulderForward, 1.0, [5.0, 8.0, 12.0]),
+        named("backward_shoulders", ShoulderForward, -1.0, [4.0, 7.0, 10.0]),
         named("large_upper_arm", UpperArm, 1.0, [10.0, 25.0, 40.0]),
         named("thin_upper_arm", UpperArm, -1.0, [10.0, 20.0, 30.0]),
         named("full_thigh", Thigh, 1.0, [10.0, 20.0, 30.0]),
@@ -162,10 +174,22 @@ impl Figures {
         self.0.iter().map(|(of, amount)| (*of, *amount))
     }
 
-    /// Figures of amounts in m. Those of 0 are left out.
-    #[cfg(test)]
-    pub(crate) fn of(amounts: &[(Trait, f64)]) -> Self {
-        Self(amounts.iter().map(|&(of, amount)| (of, mm(amount))).collect())
+    /// Checks that a person may have the figures.
+    ///
+    /// # Errors
+    /// [`BodyError::Figure`] for a figure that a given measurement decides, or that the sex does not have.
+    pub fn check(&self, known: &Measurements) -> Result<(), BodyError> {
+        for (of, amount) in self.iter() {
+            let refused = |problem, accepted: &str| Err(refused(of.name(amount), problem, accepted.to_owned()));
+            let given = DIMENSIONS.iter().find(|(other, dimension, _)| *other == of && known.get(*dimension).is_some());
+            if let Some((_, dimension, _)) = given {
+                return refused(format!("`{}` is given, and says it already", dimension.key()), "one of the two");
+            }
+            if of == Trait::Bust && known.sex == Sex::Male {
+                return refused("the body is a man's".to_owned(), "it for women");
+            }
+        }
+        Ok(())
     }
 }
 
@@ -173,8 +197,7 @@ impl Figures {
 impl std::fmt::Display for Figures {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         for (number, (of, amount)) in self.iter().enumerate() {
-            let name = of.figure(amount).unwrap_or("figure");
-            write!(f, "{}{name}={}", if number > 0 { " " } else { "" }, amount.abs())?;
+            write!(f, "{}{}={}", if number > 0 { " " } else { "" }, of.name(amount), amount.abs())?;
         }
         Ok(())
     }
@@ -247,7 +270,7 @@ mod tests {
     fn every_name_has_growing_degrees_and_its_own_sign() {
         for named in &NAMED {
             assert!(named.usual_mm.windows(2).all(|pair| pair[0] < pair[1]), "{}", named.name);
-            assert_eq!(named.of.figure(named.sign), Some(named.name));
+            assert_eq!(named.of.name(named.sign), named.name);
         }
     }
 }

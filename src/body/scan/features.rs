@@ -95,7 +95,7 @@ fn landmarks(mesh: &TriMesh, sex: Sex, sites: &Sites, right: &Half, left: &Half)
         front_neck: neck_base::front_neck(mesh, sites).ok_or_else(|| missing("front neck", 0.82 * stature))?,
         armpit: [right.armpit, mirror(left.armpit)],
         bust: [bust(1.0)?, bust(-1.0)?],
-        crotch: landmarks::crotch_point(mesh, sites.crotch, 0.0).ok_or_else(|| missing("crotch", sites.crotch))?,
+        crotch: landmarks::crotch_point(mesh, sites.crotch).ok_or_else(|| missing("crotch", sites.crotch))?,
     })
 }
 

@@ -4,6 +4,7 @@ mod features;
 
 use crate::files::import::import;
 use crate::measure::{lengths, sites, tape};
+use crate::model::figured::{self, FigureFound};
 use crate::photo::facing;
 use crate::repair;
 use crate::repair::feet::Feet;
@@ -74,6 +75,11 @@ impl Scan {
     /// Girths, lengths, tailor's measurements and their uncertainties.
     pub fn measured(&self) -> Result<Measured, BodyError> {
         lengths::of_scan(&self.imported.mesh, self.sex, self.feet, self.girths.clone())
+    }
+
+    /// Figures beside the standard body. `None` without both feet, whose stature is unknown.
+    pub fn figures(&self) -> Result<Option<Vec<FigureFound>>, BodyError> {
+        if self.feet == Feet::BOTH { figured::of_mesh(&self.imported.mesh, self.sex).map(Some) } else { Ok(None) }
     }
 
     /// Refuses a scan without both feet, whose stature or shape is unknown, so that it cannot represent a subject.

@@ -40,9 +40,6 @@ impl Depth {
     }
 }
 
-/// Share of the bend of the bust by which the back behind it gives way, so that the chest girth hardly changes. Judgement.
-const BEHIND_BUST: f64 = 0.6;
-
 /// Bends of a figure.
 pub(crate) struct Bend {
     doses: ByTrait<f64>,
@@ -51,7 +48,6 @@ pub(crate) struct Bend {
     waist: Bump,
     blades: (Bump, Depth),
     chest: (Bump, Depth),
-    chest_out: f64,
     /// Heights between which the shoulder is moved, and distances from the median plane, m.
     shoulder: [f64; 2],
     shoulder_out: [f64; 2],
@@ -72,16 +68,15 @@ impl Bend {
         let trunk = figure.trunk_sections();
         let depth = |i: usize| Depth::of(&trunk[i]);
         let to_waist = waist - hip;
-        let abdomen = hip + 0.3 * to_waist;
+        let abdomen = hip + 0.25 * to_waist;
         let blades = chest + 0.4 * (nape - chest);
         Some(Self {
             doses,
             seat: (Bump { at: hip, down: 0.08 * h, up: to_waist }, depth(1)),
-            abdomen: (Bump { at: abdomen, down: abdomen - crotch, up: waist - abdomen }, depth(2)),
+            abdomen: (Bump { at: abdomen, down: abdomen - crotch + 0.02 * h, up: waist - abdomen }, depth(2)),
             waist: Bump { at: waist, down: to_waist, up: BLADES * h - waist },
             blades: (Bump { at: blades, down: 0.10 * h, up: nape - blades }, depth(8)),
             chest: (Bump { at: chest, down: 0.065 * h, up: 0.07 * h }, depth(7)),
-            chest_out: trunk[7].half_width,
             shoulder: [chest + 0.01 * h, figure.shoulder_height() - 0.01 * h],
             shoulder_out: [1.2 * figure.shoulder_line().0, figure.shoulder_x()],
             flank: Bump { at: hip + 0.5 * to_waist, down: to_waist, up: 0.9 * to_waist },
@@ -94,10 +89,10 @@ impl Bend {
         let dose = |of: Trait| self.doses[of as usize];
         let bumped = |(bump, depth): &(Bump, Depth), side: f64| bump.weight(p.z) * depth.weight(p.y, side);
         let out = p.x.abs();
+        // The back behind the bust gives way by as much, so that the chest girth hardly changes.
         let back = dose(Trait::Seat) * bumped(&self.seat, -1.0) + dose(Trait::UpperBack) * bumped(&self.blades, -1.0)
-            - BEHIND_BUST * dose(Trait::Bust) * bumped(&self.chest, -1.0);
-        let bust = bumped(&self.chest, 1.0) * smooth_step(2.0 * (1.0 - out / self.chest_out));
-        let front = dose(Trait::Abdomen) * bumped(&self.abdomen, 1.0) + dose(Trait::Bust) * bust;
+            - dose(Trait::Bust) * bumped(&self.chest, -1.0);
+        let front = dose(Trait::Abdomen) * bumped(&self.abdomen, 1.0) + dose(Trait::Bust) * bumped(&self.chest, 1.0);
         let whole = -dose(Trait::SwayBack) * self.waist.weight(p.z);
         let share = |value: f64, [none, all]: [f64; 2]| smooth_step((value - none) / (all - none));
         let tips = dose(Trait::ShoulderForward) * share(p.z, self.shoulder) * share(out, self.shoulder_out);

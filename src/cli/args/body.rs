@@ -119,6 +119,9 @@ pub struct BodyBuild {
     pub measurements: Option<PathBuf>,
     #[command(flatten)]
     pub measured: MeasuredValues,
+    /// Figure beside the standard body: flat_seat, flat_seat=strong, flat_seat=18 (mm). May be given several times.
+    #[arg(long, value_name = "NAME[=DEGREE]", conflicts_with = "scan")]
+    pub figure: Vec<String>,
     /// Front picture (PNG or JPEG): a photograph against a plain background, or a mask.
     #[arg(long, value_name = "IMAGE", requires = "side", conflicts_with_all = ["subject", "measurements"])]
     pub front: Option<PathBuf>,

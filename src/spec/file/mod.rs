@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 use crate::bodies;
 use crate::parameters::Parameters;
 use crate::schedule::{Limits, Schedule};
-use body::{Body, LengthUnit, Measurements, Pose, Sex};
+use body::{Body, Figures, LengthUnit, Measurements, Pose, Sex};
 use fit::target::Target;
 use fit::{Cuts, Simulator};
 use sim::Fabric;
@@ -67,6 +67,9 @@ pub struct Person {
     /// Pose; `None` for the pose in which the body is built or scanned.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose: Option<Pose>,
+    /// Figures in which the body departs from the standard body of its measurements. Never those of a scan.
+    #[serde(default, skip_serializing_if = "Figures::is_empty")]
+    pub figures: Figures,
 }
 
 impl Person {
@@ -76,7 +79,7 @@ impl Person {
     /// When no body has the measurements, or the scan cannot wear garments or take the pose.
     pub fn body(&self) -> Result<Body> {
         let body = match &self.scan {
-            None => bodies::build_body(&self.measurements)?,
+            None => bodies::build_figured(&self.measurements, &self.figures)?,
             Some(scan) => {
                 let read = bodies::read_scan(&scan.file, scan.unit, Some(self.measurements.sex))?;
                 bodies::scanned_body(&scan.file, read)?
@@ -91,7 +94,7 @@ impl Person {
 
 impl From<Measurements> for Person {
     fn from(measurements: Measurements) -> Self {
-        Self { measurements, scan: None, pose: None }
+        Self { measurements, scan: None, pose: None, figures: Figures::default() }
     }
 }
 
@@ -102,7 +105,8 @@ impl ScanFile {
     /// When the scan is no standing person.
     pub fn read(self, sex: Option<Sex>) -> Result<ScannedPerson> {
         let found = bodies::whole_scan(&self.file, self.unit, sex)?;
-        let person = Person { measurements: found.girths.measurements(found.sex), scan: Some(self), pose: None };
+        let of_scan = Person::from(found.girths.measurements(found.sex));
+        let person = Person { scan: Some(self), ..of_scan };
         Ok(ScannedPerson { person, notes: found.imported.notes })
     }
 }

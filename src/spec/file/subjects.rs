@@ -10,7 +10,7 @@ use crate::fields::sex;
 use crate::file::reader::{Place, Reader};
 use crate::file::values::{lookup, numbers, source, unique};
 use crate::file::{Person, Placed, ScanFile, Subject};
-use body::{BodyError, LengthUnit, Measurements, Pose, Sex};
+use body::{BodyError, Figures, LengthUnit, Measurements, Pose, Sex};
 use store::files::SourceFile;
 
 /// End of a message where a subject may name an entry of the catalogue instead.
@@ -24,7 +24,8 @@ pub(super) fn subjects(
     known: &BTreeMap<String, Person>,
 ) -> Vec<Placed<Subject>> {
     let accepted =
-        [&["id", "like", "scan", "unit", "pose", "poses", "carried_from"], &keys::<Measurements>()[..]].concat();
+        [&["id", "like", "scan", "unit", "pose", "poses", "carried_from", "figure"], &keys::<Measurements>()[..]]
+            .concat();
     let mut subjects = Vec::new();
     let mut ids = BTreeSet::new();
     for mut place in reader.tables(top, "subject", "subject") {
@@ -34,7 +35,7 @@ pub(super) fn subjects(
         place.name = format!("subject {}", id.get_ref());
         let found = match (reader.text(&place, "like"), reader.text(&place, "scan")) {
             (Some(name), _) => {
-                alone(reader, &place, &["id", "like", "pose", "poses", "carried_from"]);
+                alone(reader, &place, &["id", "like", "pose", "poses", "carried_from", "figure"]);
                 lookup(reader, known, &name, "subject in the catalogue").cloned()
             }
             (None, Some(file)) => {
@@ -45,6 +46,7 @@ pub(super) fn subjects(
         };
         let pose = reader.text(&place, "pose").and_then(|name| pose(reader, &place, &name));
         let found = found.map(|person| Person { pose: pose.or(person.pose), ..person });
+        let found = found.map(|person| figured(reader, &place, person));
         let poses = poses(reader, &place);
         let from = reader.text(&place, "carried_from").and_then(|name| self::pose(reader, &place, &name));
         if from.is_some() && poses.is_empty() && found.as_ref().is_some_and(|person| person.pose.is_none()) {
@@ -62,6 +64,26 @@ pub(super) fn subjects(
         ));
     }
     subjects
+}
+
+/// The person with the figures that a subject names.
+fn figured(reader: &mut Reader<'_>, place: &Place<'_>, person: Person) -> Person {
+    let texts = reader.texts(place, "figure").unwrap_or_default();
+    let Some(first) = texts.first() else { return person };
+    if person.scan.is_some() {
+        let message =
+            format!("{}: `figure` of a scan, which has its own; accepted: it beside measurements", place.name);
+        reader.problem(&first.span(), message);
+        return person;
+    }
+    let read = Figures::read(texts.iter().map(|text| *text.get_ref()));
+    match read.and_then(|figures| figures.check(&person.measurements).map(|()| figures)) {
+        Ok(figures) => Person { figures, ..person },
+        Err(error) => {
+            reader.problem(&first.span(), format!("{}: {error}", place.name));
+            person
+        }
+    }
 }
 
 /// Reads the poses that a subject names.

@@ -332,6 +332,28 @@ fn a_subject_stands_in_the_poses_that_it_names() {
 }
 
 #[test]
+fn a_subject_has_the_figures_that_it_names() {
+    let subject = |keys: &str| {
+        let text = GOOD.replacen("sex = \"female\"", &format!("sex = \"female\"\n{keys}"), 1);
+        load(&text).map(|study| study.subjects[1].person.clone())
+    };
+    let plain = subject("").expect("a person");
+    assert!(plain.figures.is_empty());
+    let found = subject("figure = [\"flat_seat\", \"round_back=12\"]").expect("figures");
+    assert_eq!(found.figures.to_string(), "flat_seat=15 round_back=12");
+    assert_ne!(found.body().expect("a body").mesh, plain.body().expect("a body").mesh);
+    let check = |keys: &str, words: &str| {
+        let told = subject(keys).expect_err("no figure");
+        assert!(told.contains("subject x: figure") && told.contains(words), "{told}");
+    };
+    check("figure = [\"flat_saet\"]", "accepted: flat_seat, prominent_seat");
+    check("figure = [\"flat_seat=90\"]", "slight, medium, strong, or above 0 to 30 mm");
+    check("thigh_girth_mm = 560\nfigure = [\"full_thigh\"]", "`thigh_girth_mm` is given");
+    let like = GOOD.replacen("like = \"male-ii\"", "like = \"male-ii\"\nfigure = [\"sway_back\"]", 1);
+    assert_eq!(load(&like).expect("a study").subjects[0].person.figures.to_string(), "sway_back=12");
+}
+
+#[test]
 fn a_garment_is_carried_from_the_pose_in_which_it_is_put_on() {
     let read = |keys: &str| load(&GOOD.replacen("like = \"male-ii\"", &format!("like = \"male-ii\"\n{keys}"), 1));
     let study = read("poses = [\"arms_15\", \"arms_60\", \"step_10\"]\ncarried_from = \"arms_15\"").expect("a study");

@@ -33,7 +33,8 @@ const TIGHT: [LevelMm; 6] = [
 
 fn moved(handle: Handle, amount_mm: f64) -> MovedHandle {
     let is_half_girth = handle.is_half_girth();
-    MovedHandle { handle: handle.as_str(), amount_mm, does: handle.definition(), is_half_girth }
+    let (pieces, serves) = (vec!["front".to_owned()], vec!["hip".to_owned()]);
+    MovedHandle { handle: handle.as_str(), amount_mm, does: handle.definition(), is_half_girth, pieces, serves }
 }
 
 /// An alteration: of M on subject ii nothing moves; of other sizes four handles move and do not reach the hip.
@@ -73,6 +74,8 @@ pub fn found(request: &AlterRequest) -> Alteration {
             most_kpa: Some(0.12),
             drag_lines: 2,
         }),
+        figures: vec![],
+        signs: vec![],
         keeps_source: true,
         files: vec![("tshirt-S-i.dxf".into(), b"dxf".to_vec()), ("tshirt-S-i.svg".into(), b"svg".to_vec())],
     }

@@ -7,7 +7,7 @@ use engine::Why;
 use fit::{FitClass, Simulator};
 use sim::fabric::Stretched;
 use sim::{Fabric, Step};
-use spec::bodies::{Girths, Measurements, Sex};
+use spec::bodies::{Figures, Girths, Measurements, Sex};
 use spec::patterns::{Model, drafted};
 use spec::{Change, MEASUREMENTS};
 use store::files::SourceFile;
@@ -235,7 +235,15 @@ fn subjects() -> Vec<SubjectRow> {
         for (field, value) in MEASUREMENTS.iter().zip(values) {
             field.set(&mut measurements, Some(*value));
         }
-        SubjectRow { id: SubjectId(id), name: name.into(), revision: id, measurements, scan: None, pose: None }
+        SubjectRow {
+            id: SubjectId(id),
+            name: name.into(),
+            revision: id,
+            measurements,
+            scan: None,
+            pose: None,
+            figures: Figures::default(),
+        }
     };
     vec![
         subject(3, "anna", Sex::Female, &[1480.0]),

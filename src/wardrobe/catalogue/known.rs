@@ -9,7 +9,7 @@ use crate::catalogue::revision::{self, By};
 use crate::catalogue::style::{CURRENT_SIZES, seam_file};
 use crate::catalogue::table::{self, Read};
 use crate::catalogue::{Part, Removed};
-use body::{LengthUnit, Measurements, Pose, Sex};
+use body::{Figures, LengthUnit, Measurements, Pose, Sex};
 use sim::{self, Fabric};
 use spec::entry::Entry;
 use spec::file::{Known, KnownSize, KnownStyle, ScanFile, SizeFile};
@@ -35,6 +35,8 @@ pub struct SubjectRow {
     pub scan: Option<String>,
     /// Pose; `None` for the pose in which the body is built or scanned.
     pub pose: Option<Pose>,
+    /// Figures beside the standard body of the measurements.
+    pub figures: Figures,
 }
 
 /// Adds the subjects of the thesis and the built-in fabrics to the catalogue, where they are missing. Does not write to
@@ -71,7 +73,7 @@ pub fn known(connection: Option<&Connection>) -> Result<Known> {
     };
     let subjects = stored_subjects(connection)?.into_iter().map(|row| {
         let scan = if row.scan.is_some() { stored_scan(connection, row.id)? } else { None };
-        Ok((row.name, Person { measurements: row.measurements, scan, pose: row.pose }))
+        Ok((row.name, Person { measurements: row.measurements, scan, pose: row.pose, figures: row.figures }))
     });
     let fabrics = crate::catalogue::fabrics::stored_fabrics(connection)?
         .into_iter()
@@ -159,17 +161,19 @@ fn stored_subjects(connection: &Connection) -> Result<Vec<SubjectRow>> {
 /// Query with the columns that [`subject_row`] reads.
 fn select_subject() -> String {
     let scan = "(SELECT file FROM scan WHERE scan.subject_id = subject.subject_id)";
-    format!("SELECT subject_id, name, revision, sex, {scan}, pose, {} FROM subject", columns(&MEASUREMENTS))
+    format!("SELECT subject_id, name, revision, sex, {scan}, pose, figure, {} FROM subject", columns(&MEASUREMENTS))
 }
 
 fn subject_row(row: &Row<'_>) -> rusqlite::Result<SubjectRow> {
     let sex: String = row.get(3)?;
     let sex = if sex == "male" { Sex::Male } else { Sex::Female };
     let mut measurements = Measurements::of(sex, f64::NAN);
-    read_numbers(row, 6, &MEASUREMENTS, &mut measurements)?;
+    read_numbers(row, 7, &MEASUREMENTS, &mut measurements)?;
     let (id, name, revision, scan) = (SubjectId(row.get(0)?), row.get(1)?, row.get(2)?, row.get(4)?);
     let pose = row.get::<_, Option<String>>(5)?.and_then(|text| text.parse().ok());
-    Ok(SubjectRow { id, name, revision, measurements, scan, pose })
+    let figure = row.get::<_, Option<String>>(6)?.unwrap_or_default();
+    let figures = Figures::read(figure.split_whitespace()).unwrap_or_default();
+    Ok(SubjectRow { id, name, revision, measurements, scan, pose, figures })
 }
 
 /// Scan of a subject's revision; `None` where the body is built from measurements.
@@ -189,8 +193,8 @@ fn stored_scan(connection: &Connection, id: SubjectId) -> Result<Option<ScanFile
 /// # Errors
 /// When no revision has the number.
 pub fn person(store: &Store, id: SubjectId) -> Result<Person> {
-    let SubjectRow { measurements, pose, .. } = subject_revision(store, id)?;
-    Ok(Person { measurements, scan: stored_scan(&store.reader, id)?, pose })
+    let SubjectRow { measurements, pose, figures, .. } = subject_revision(store, id)?;
+    Ok(Person { measurements, scan: stored_scan(&store.reader, id)?, pose, figures })
 }
 
 /// The built-in subjects, by name.

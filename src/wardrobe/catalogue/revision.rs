@@ -86,7 +86,7 @@ pub fn subject(transaction: &Transaction<'_>, name: &str, person: &Person, by: B
     let revision = match found(transaction, sql, &[&name, &hash])? {
         Some(revision) => revision,
         None => {
-            let Person { measurements, scan, pose } = person;
+            let Person { measurements, scan, pose, figures } = person;
             let numbers = MEASUREMENTS.iter().map(|field| (field.key, field.get(measurements)));
             let added = insert(transaction, "subject", name, &hash, ("sex", sex_name(measurements)), numbers)?;
             if let Some(ScanFile { file, unit }) = scan {
@@ -96,6 +96,10 @@ pub fn subject(transaction: &Transaction<'_>, name: &str, person: &Person, by: B
             if let Some(pose) = pose {
                 let sql = "UPDATE subject SET pose = ? WHERE subject_id = ?";
                 transaction.execute(sql, params![pose.to_string(), added.id])?;
+            }
+            if !figures.is_empty() {
+                let sql = "UPDATE subject SET figure = ? WHERE subject_id = ?";
+                transaction.execute(sql, params![figures.to_string(), added.id])?;
             }
             added
         }

@@ -23,10 +23,13 @@ pub(super) struct Read<T> {
 /// Headings of a column with names of entries, besides the name of the part (`subject`).
 const NAMES: [&str; 2] = ["name", "id"];
 /// Columns of views that are not values of an entry.
-const IGNORED: [&str; 6] = ["revision", "hash", "is_latest", "is_retired", "scan", "pose"];
+const IGNORED: [&str; 7] = ["revision", "hash", "is_latest", "is_retired", "scan", "pose", "figure"];
 /// Ignored columns that change a subject's body: a value in one prevents the import, for this reason.
-const BODIES: [(&str, &str); 2] =
-    [("scan", "the scan's own file is imported"), ("pose", "a study says the poses of its subjects")];
+const BODIES: [(&str, &str); 3] = [
+    ("scan", "the scan's own file is imported"),
+    ("pose", "a study says the poses of its subjects"),
+    ("figure", "a study says the figures of its subjects"),
+];
 
 /// Reads a table. Empty cells are no values.
 ///
