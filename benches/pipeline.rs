@@ -9,7 +9,7 @@ use toile::advice::{Question, chance};
 use toile::body::{self, Body, Dimension, Measurements, Sex};
 use toile::engine::{RunOptions, run};
 use toile::fit::Draw;
-use toile::fit::coverage::{Asked, Asks, Search, Series};
+use toile::fit::coverage::{Asked, Asks, Bound, Search};
 use toile::geom::{DistanceField, TriMesh, shapes};
 use toile::measure;
 use toile::pattern::{Garment, Handle, Style, draft, dxf};
@@ -169,23 +169,39 @@ fn read_all_samples(bencher: Bencher) {
     });
 }
 
-/// Three sizes of five knobs sought for as many people as `toile grade` draws.
+/// Three even sizes of five knobs sought for as many people as `toile grade` draws. Each knob has a start and a step.
 #[divan::bench(sample_count = 3, sample_size = 1)]
 fn size_search(bencher: Bencher) {
+    const KNOBS: usize = 5;
     let mut random = Draw::new(1);
-    let people = (0..2000).map(|_| -> Asks {
-        let large = 40.0 * random.normal();
-        let asked = |knob: usize| {
-            let middle = large + 15.0 * random.normal();
-            let per_step = (0..5).map(|other| if other == knob { 1.0 } else { 0.05 }).collect();
-            Asked { per_step, band: [middle - 20.0, middle + 20.0] }
-        };
-        (0..5).map(asked).collect()
-    });
-    let asks = vec![people.collect::<Vec<Asks>>(); 3];
-    let search =
-        Search { asks: &asks, limits: &[[-150, 150]; 5], habits: &[1.0; 5], price: 0.2, series: Series::Rising };
-    bencher.bench_local(|| divan::black_box(&search).best(1));
+    let middles: Vec<[f64; KNOBS]> = (0..2000)
+        .map(|_| {
+            let large = 40.0 * random.normal();
+            std::array::from_fn(|_| large + 15.0 * random.normal())
+        })
+        .collect();
+    let asked = |size: usize, knob: usize, middle: f64| {
+        let mut per_step = vec![0.0; 2 * KNOBS];
+        (per_step[knob], per_step[KNOBS + knob]) = (1.0, size as f64);
+        Asked { per_step, band: [middle - 20.0, middle + 20.0] }
+    };
+    let person = |size: usize, middles: &[f64; KNOBS]| -> Asks {
+        (0..KNOBS).map(|knob| asked(size, knob, middles[knob])).collect()
+    };
+    let asks: Vec<Vec<Asks>> =
+        (0..3).map(|size| middles.iter().map(|middles| person(size, middles)).collect()).collect();
+    let bound = |parameter: usize| {
+        let mut weights = vec![0.0; 2 * KNOBS];
+        weights[parameter] = 1.0;
+        Bound { weights, between: if parameter < KNOBS { [-150.0, 150.0] } else { [5.0, 80.0] } }
+    };
+    let bounds: Vec<Bound> = (0..2 * KNOBS).map(bound).collect();
+    let habits: Vec<Vec<f64>> = (1..KNOBS)
+        .map(|knob| (0..2 * KNOBS).map(|k| f64::from(i8::from(k == KNOBS + knob) - i8::from(k == KNOBS))).collect())
+        .collect();
+    let search = Search { asks: &asks, bounds: &bounds, habits: &habits, price: 0.2 };
+    let start = [[-40; KNOBS], [40; KNOBS]].concat();
+    bencher.bench_local(|| divan::black_box(&search).best(std::slice::from_ref(&start), 1));
 }
 
 #[divan::bench]
