@@ -22,6 +22,7 @@ use crate::handle::{Handle, HandleError, Redrawn, least_step};
 use crate::piece::{Beside, GradePoint, Piece};
 use crate::pom::Point;
 use crate::seams::{SeamFile, StyleError};
+use crate::style::correspond::shares;
 use crate::style::named::called;
 use crate::style::nest_corners::corners_of;
 use crate::style::{EdgeRef, Style};
@@ -101,8 +102,9 @@ pub struct Growth {
     /// Pieces of the sample size, with a grade point at every cardinal point.
     pieces: Vec<Piece>,
     points: Vec<Cardinal>,
-    /// Numbers of the points that are corners by `corners_at`, by the identifier of the piece.
-    corners: BTreeMap<String, Vec<usize>>,
+    /// Corners that the seam file refers to by their places, as vertices of the piece of that index, by the identifier of
+    /// the piece. They are the same vertices in every size.
+    corners: BTreeMap<String, (usize, Vec<usize>)>,
     style: Style,
     /// Lengths of both sides of each seam of the sample size, m.
     lengths_m: Vec<[f64; 2]>,
@@ -190,16 +192,11 @@ impl Growth {
     fn try_handles(&mut self, handles: &[Handle]) -> Result<(), GrowthError> {
         let mut points: Vec<Cardinal> =
             self.pieces.iter().enumerate().flat_map(|(number, piece)| cardinal::points(number, piece)).collect();
-        for (name, corners) in self.corners_of_seams() {
-            let numbers = corners.into_iter().map(|corner| {
-                let known = points.iter().position(|point| *point == corner);
-                known.unwrap_or_else(|| {
-                    points.push(corner);
-                    points.len() - 1
-                })
-            });
-            let numbers = numbers.collect();
-            self.corners.insert(name, numbers);
+        let corners = self.corners_of_seams();
+        for corner in corners.values().flatten() {
+            if !points.contains(corner) {
+                points.push(*corner);
+            }
         }
         let sides: Vec<cardinal::Side> =
             self.pieces.iter().enumerate().flat_map(|(number, piece)| cardinal::sides(number, piece)).collect();
@@ -230,6 +227,9 @@ impl Growth {
                 piece.curve_points.push(side.places[k]);
             }
         }
+        // Only now do the lines have all their vertices.
+        self.corners =
+            corners.into_iter().filter_map(|(name, corners)| Some((name, self.vertices(&corners)?))).collect();
         let added = between.iter().map(|&(side, k)| {
             (
                 Cardinal { piece: sides[side].piece, at: sides[side].places[k], kind: sides[side].kind },
@@ -265,6 +265,25 @@ impl Growth {
             corners.insert(name.clone(), vertices.into_iter().map(corner).collect());
         }
         corners
+    }
+
+    /// Index of the piece of some corners, and their vertices.
+    fn vertices(&self, corners: &[Cardinal]) -> Option<(usize, Vec<usize>)> {
+        let piece = corners.first()?.piece;
+        let outline = self.pieces[piece].seam_outline();
+        let nearest = |corner: &Cardinal| {
+            let away = |vertex: &usize| (outline[*vertex] - corner.at).norm_squared();
+            (0..outline.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
+        };
+        Some((piece, corners.iter().map(nearest).collect()))
+    }
+
+    /// Places of the corners on displaced pieces, by the identifier of the piece.
+    fn places(&self, pieces: &[Piece]) -> BTreeMap<String, Vec<[f64; 2]>> {
+        let of_piece = |(name, (piece, vertices)): (&String, &(usize, Vec<usize>))| {
+            (name.clone(), shares(pieces[*piece].seam_outline(), vertices))
+        };
+        self.corners.iter().map(of_piece).collect()
     }
 
     /// Displacement of the grade points of all pieces by a handle, m per m.
@@ -312,7 +331,12 @@ impl Growth {
 
     /// Style of displaced pieces, whose seams may come apart.
     fn loosely(&self, steps: &[V2], only: Option<usize>) -> Result<Style, GrowthError> {
-        Ok(Style::of(&self.displaced(steps, only)?, &self.loose, &self.file)?)
+        let pieces = self.displaced(steps, only)?;
+        let mut entries = self.loose.clone();
+        for (name, places) in self.places(&pieces) {
+            entries.piece.entry(name).and_modify(|entry| entry.corners_at = places);
+        }
+        Ok(Style::of(&pieces, &entries, &self.file)?)
     }
 
     /// Change of the difference between the sides of each seam, besides what its ease grows by, m.

@@ -1,14 +1,11 @@
 //! Sizes of a grown pattern as a sample size with rules, and the ease of each size.
 
-use std::collections::BTreeMap;
-
 use super::{DIGIT_M, Growth, GrowthError, lengths_m};
 use crate::grade::GradeTable;
 use crate::handle::{self, Handle};
 use crate::piece::Piece;
 use crate::seams::{SAME_EASE, StyleError};
 use crate::style::Style;
-use crate::style::correspond::shares;
 use geom::V2;
 use geom::units::mm;
 use toml_edit::{DocumentMut, InlineTable, Value, value};
@@ -88,17 +85,7 @@ impl Growth {
     /// Bytes of the seam file, made on the sample size, with the places of corners on its pieces. Sizes of a nest have
     /// the same vertices, so that the corners of all sizes are found from there.
     fn with_corners(&self, sample: &str) -> Result<Vec<u8>, GrowthError> {
-        let mut corners = BTreeMap::new();
-        for (name, places) in &self.corners {
-            let Some(&first) = places.first() else { continue };
-            let outline = self.pieces[self.points[first].piece].seam_outline();
-            let nearest = |point: &usize| {
-                let away = |vertex: &usize| (outline[*vertex] - self.points[*point].at).norm_squared();
-                (0..outline.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
-            };
-            corners.insert(name.clone(), shares(outline, &places.iter().map(nearest).collect::<Vec<_>>()));
-        }
-        let seams = handle::with_corners(&self.seams, &self.file, &corners)?;
+        let seams = handle::with_corners(&self.seams, &self.file, &self.places(&self.pieces))?;
         let mut document = self.document(&seams)?;
         if document.get("size").is_some() {
             document["size"] = value(sample);

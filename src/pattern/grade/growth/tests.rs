@@ -49,7 +49,9 @@ fn an_even_grade_has_even_rules_few_of_them_and_seams_that_agree() {
                 let length = |style: &Style| {
                     style.points_of_measure().iter().find(|found| found.point == point).map(|found| found.length_m)
                 };
-                let grown = length(&style).zip(length(growth.style())).map(|(after, before)| after - before);
+                // A dress has no hip that is measured flat.
+                let Some(before) = length(growth.style()) else { continue };
+                let grown = length(&style).map(|after| after - before);
                 let meant = (k as f64 - 2.0) * by_m;
                 let off = grown.map_or(1.0, |grown| (grown - meant).abs());
                 assert!(off < 0.6e-3, "{model:?} {name}: {} {grown:?}, meant {meant}", handle.as_str());
