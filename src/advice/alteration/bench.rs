@@ -176,10 +176,12 @@ impl<'a> Bench<'a> {
         let goal = |(level, ease_m): (&String, &f64)| {
             let [least, most] = self.band_m(level)?;
             let inside = INSIDE_M.min(0.25 * (most - least));
-            let sensitivity: Vec<f64> =
-                self.changes.iter().map(|change| change.get(level).copied().unwrap_or(0.0)).collect();
-            let done: f64 = sensitivity.iter().zip(amounts).map(|(s, amount)| s * amount).sum();
             let is_met = self.fitted.get(level).is_some_and(|before_m| (least..=most).contains(before_m));
+            // A level is no reason to move a handle that hardly changes it.
+            let counts = |by: &f64| is_met || by.abs() >= LEAST_EFFECT;
+            let change = |change: &Sensitivity| change.get(level).copied().filter(counts).unwrap_or(0.0);
+            let sensitivity: Vec<f64> = self.changes.iter().map(change).collect();
+            let done: f64 = sensitivity.iter().zip(amounts).map(|(s, amount)| s * amount).sum();
             let band = if is_met { [least, most] } else { [least + inside, most - inside] };
             Some(Goal { value: ease_m - done, sensitivity, band, gives: is_met.then_some(KEPT_M2) })
         };

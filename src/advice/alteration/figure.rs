@@ -6,10 +6,11 @@
 use serde::Serialize;
 
 use crate::alteration::Wish;
-use body::{Body, Trait};
+use body::{Body, FigureFound, Trait};
 use geom::units::from_mm;
 use pattern::pom::Point;
 use pattern::{Handle, Style};
+use spec::file::Person;
 use store::{InOrigin, Origin, Result};
 
 /// Movement of a handle by which the change of its point of measure is found, m.
@@ -64,19 +65,26 @@ pub struct ForFigure {
     pub by_mm: f64,
 }
 
-/// Finds the clear traits of a body that no girth tells, and the handles of a style for them.
+/// Finds the traits of a person that no girth tells, and the handles of a style for them: figures that are said of the
+/// person, and others that are clear on the body.
 ///
 /// # Errors
 /// When no standard body has the measurements of the body.
-pub fn of(style: &Style, body: &Body, wish: &Wish) -> Result<Vec<(ForFigure, Option<(Handle, f64)>)>> {
+pub fn of(style: &Style, person: &Person, body: &Body, wish: &Wish) -> Result<Vec<(ForFigure, Option<(Handle, f64)>)>> {
     let known = style.handles();
-    let found = body::figures(body).origin(Origin::Body)?;
+    let said = person.figures.iter().map(|(of, amount_mm)| FigureFound { of, amount_mm, sd_mm: 0.0 });
+    let mut found: Vec<FigureFound> = said.collect();
+    for seen in body::figures(body).origin(Origin::Body)? {
+        if !found.iter().any(|said| said.of == seen.of) {
+            found.push(seen);
+        }
+    }
     let clear = found.iter().filter(|found| found.is_clear());
     let is_covered = |remedy: &&Remedy| remedy.covers.iter().any(|handle| known.contains(handle));
     let asked = clear.filter_map(|found| {
         REMEDIES.iter().find(|remedy| remedy.of == found.of).filter(is_covered).map(|remedy| (found, remedy))
     });
-    let altered = |(found, remedy): (&body::FigureFound, &Remedy)| {
+    let altered = |(found, remedy): (&FigureFound, &Remedy)| {
         let own = remedy.handles.iter().find(|(handle, _)| known.contains(handle) && !wish.without.contains(handle));
         let by_mm = own.map_or(0.0, |(handle, point)| found.amount_mm / ratio(style, *handle, *point));
         let most_mm = own.map_or(0.0, |(handle, _)| wish.limit_mm.unwrap_or_else(|| handle.most_mm()));

@@ -264,7 +264,7 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
     let Asked { spec, others, target } = asked(study, wish)?;
     let body = spec.person.body()?;
     let style = stages::style(&spec)?;
-    let figures = if wish.moves_mm.is_empty() { figure::of(&style, &body, wish)? } else { Vec::new() };
+    let figures = if wish.moves_mm.is_empty() { figure::of(&style, &spec.person, &body, wish)? } else { Vec::new() };
     let bench = Bench::new(&style, summed(&figures), (&body, &target, wish))?;
     let asks_drape = wish.targets.keys().any(|name| !bench.has_level(name));
     let room = (asks_drape || wish.is_draped).then(|| FittingRoom::new(&spec, &body)).transpose()?;
