@@ -1,7 +1,5 @@
 //! Ease of all sizes on a subject whose dimensions are uncertain: linear about the median body, from bodies in which
-//! one dimension differs. A body differs from that, by curvature and by what its shape does between dimensions. A few
-//! people whom the subject may be are built, and each draw departs from the line as one of them does, at all levels
-//! together.
+//! one dimension differs.
 
 use crate::chance::Question;
 use body::{Body, Dimension, Likely, Measurements};
@@ -16,12 +14,6 @@ use store::{InOrigin, Origin, Result};
 /// Standard deviations from the mean of a normal distribution to an end of its 80 % interval.
 const REACH: f64 = 1.281_551_565_544_6;
 
-/// Number of people who are built to tell how far bodies depart from the line. Judgement: twice as many change no chance
-/// by more than its interval.
-const BUILT: usize = 24;
-/// Seed of these people, who are the same for every question.
-const BUILT_SEED: u64 = 0x0062_7569_6c74;
-
 /// A level of a size.
 pub(super) struct Level {
     /// Level of the body, such as `chest`.
@@ -33,8 +25,6 @@ pub(super) struct Level {
     /// Derivative of the ease with respect to the logarithm of each dimension, m, in the order of
     /// the bench's `dimensions`.
     slopes: Vec<f64>,
-    /// Departure from the line on each person who was built, m.
-    departures_m: Vec<f64>,
     /// Index of the part of the garment to which the level belongs.
     part: usize,
     /// Standard deviation of the garment's length at the level, m.
@@ -94,16 +84,6 @@ fn part(level: &str) -> (usize, f64) {
     }
 }
 
-/// Bodies that tell how eases depend on dimensions.
-struct Bodies<'a> {
-    /// Median body.
-    built: &'a Body,
-    /// Bodies in which one dimension is less, and more.
-    moved: &'a [[Option<Body>; 2]],
-    /// People whom the subject may be.
-    people: &'a [(Measurements, Body)],
-}
-
 impl Bench {
     /// Prepares the sizes of a garment for a subject with some read measurements. On a scan the tape reads more.
     pub fn new(
@@ -123,12 +103,10 @@ impl Bench {
         let mut bench = Self { readings, sizes: Vec::new(), likely, middle, error_factor, dimensions };
         let built = bodies::build_body(&bench.middle)?;
         let moved: Vec<[Option<Body>; 2]> = bench.dimensions.iter().map(|dimension| bench.moved(*dimension)).collect();
-        let people = bench.people();
-        let bodies = Bodies { built: &built, moved: &moved, people: &people };
         let tolerance_m = from_mm(question.tolerance_mm);
         let size = |(size, style): &(String, Style)| Sized {
             size: size.clone(),
-            levels: bench.levels(style, target, &bodies, scanned, tolerance_m),
+            levels: bench.levels(style, target, &built, &moved, scanned, tolerance_m),
         };
         bench.sizes = styles.iter().map(size).collect();
         Ok(bench)
@@ -152,27 +130,8 @@ impl Bench {
 
     /// Draws the ease of a size at every level on a person, m, with the errors of a made garment.
     pub fn eases_m(&self, size: &Sized, person: &Measurements, draw: &mut Draw) -> Vec<f64> {
-        let made_m = size.made_m(draw);
-        let like = draw.below(BUILT);
-        let departure_m = |level: &Level| level.departures_m.get(like % level.departures_m.len().max(1)).copied();
-        let own_m = size.levels.iter().zip(made_m).map(|(level, made_m)| departure_m(level).unwrap_or(0.0) + made_m);
-        self.linear_m(size, person).into_iter().zip(own_m).map(|(ease_m, own_m)| ease_m + own_m).collect()
-    }
-
-    /// Ease of a size at every level on a person by the line about the median body, m.
-    pub fn linear_m(&self, size: &Sized, person: &Measurements) -> Vec<f64> {
         let off = self.off(&self.middle, person);
-        size.levels.iter().map(|level| level.on(&off)).collect()
-    }
-
-    /// A few people whom the subject may be, with their bodies. Leaves out those whose bodies cannot be built.
-    fn people(&self) -> Vec<(Measurements, Body)> {
-        let mut draw = Draw::new(BUILT_SEED);
-        let person = |_| {
-            let person = self.person(&mut draw);
-            bodies::build_body(&person).ok().map(|body| (person, body))
-        };
-        (0..BUILT).filter_map(person).collect()
+        size.levels.iter().zip(size.made_m(draw)).map(|(level, made_m)| level.on(&off) + made_m).collect()
     }
 
     /// Differences between two people in the logarithms of the uncertain dimensions; 0 for a dimension that either
@@ -195,13 +154,13 @@ impl Bench {
         &self,
         style: &Style,
         target: &Target,
-        Bodies { built, moved, people }: &Bodies<'_>,
+        built: &Body,
+        moved: &[[Option<Body>; 2]],
         scanned: Option<&Body>,
         tolerance_m: f64,
     ) -> Vec<Level> {
         let ease_at = |eases: &Eases, level: &str| eases.iter().find(|(name, _)| name == level).map(|(_, m)| *m);
-        let bodies = [Some(*built), scanned].into_iter().chain(moved.iter().flatten().map(Option::as_ref));
-        let bodies = bodies.chain(people.iter().map(|(_, body)| Some(body)));
+        let bodies = [Some(built), scanned].into_iter().chain(moved.iter().flatten().map(Option::as_ref));
         let all: Vec<&Body> = bodies.clone().flatten().collect();
         let mut found = ease::on_all(style, &all).into_iter();
         let next = |body: Option<&Body>| -> Option<Eases> {
@@ -213,10 +172,6 @@ impl Bench {
         let own = eases.next().flatten();
         let moved: Vec<[Option<Eases>; 2]> =
             (0..moved.len()).map(|_| [eases.next().flatten(), eases.next().flatten()]).collect();
-        let people: Vec<(Vec<f64>, Eases)> = people
-            .iter()
-            .filter_map(|(person, _)| Some((self.off(&self.middle, person), eases.next().flatten()?)))
-            .collect();
         let slope = |level: &str, here: f64, (dimension, [less, more]): (&Dimension, &[Option<Eases>; 2])| {
             let [less, more] = [less, more].map(|eases| eases.as_ref().and_then(|eases| ease_at(eases, level)));
             let sides = f64::from(u8::from(less.is_some()) + u8::from(more.is_some()));
@@ -232,17 +187,14 @@ impl Bench {
                 band_m: target.band_m(name, is_top),
                 middle_m: *here,
                 slopes,
-                departures_m: Vec::new(),
                 part,
                 made_m: share * tolerance_m,
             };
-            let departure = |(off, eases): &(Vec<f64>, Eases)| ease_at(eases, name).map_or(0.0, |m| m - found.on(off));
-            let departures_m = people.iter().map(departure).collect();
             // A scan has its own shape. So the ease measured on it replaces that of the model, shifted to the median
             // person.
             let own = own.as_ref().and_then(|eases| ease_at(eases, name));
             let middle_m = own.map_or(*here, |own| own + found.on(&self.off(&self.readings, &self.middle)) - *here);
-            Level { middle_m, departures_m, ..found }
+            Level { middle_m, ..found }
         };
         middle.iter().map(level).collect()
     }

@@ -267,6 +267,7 @@ impl Handle {
                 | SwayBack
                 | FrontLength
                 | BackLength
+                | ArmholeDepth
         )
     }
 
