@@ -298,7 +298,7 @@ fn inflections(line: &Polyline) -> usize {
 /// True for an edge of an armhole, a cap, a neckline or a seat seam, by its name in the drafts.
 fn is_curve(edge: &Edge) -> bool {
     let named = |start: &&str| edge.name.as_deref().is_some_and(|name| name.starts_with(*start));
-    ["armhole", "cap", "neck", "crotch"].iter().any(|start| named(start))
+    ["armhole", "cap", "neck", "crotch"].iter().any(named)
 }
 
 #[test]

@@ -117,7 +117,7 @@ mod tests {
             assert_eq!(side.between().count(), points, "{bend_m}");
             assert!(side.departs_m <= DRAWN_M || !is_divided, "{}", side.departs_m);
             for share in [0.0, 0.1, 0.37, 0.5, 1.0] {
-                let place = on_sides(&[side.clone()], V2::new(0.4 * share, 0.0)).expect("on the side");
+                let place = on_sides(std::slice::from_ref(&side), V2::new(0.4 * share, 0.0)).expect("on the side");
                 let off_m = (place - carried(V2::new(0.4 * share, 0.0))).norm();
                 assert!(off_m < 1.2 * side.departs_m.max(1e-12), "{bend_m} {share}: {off_m}");
             }
