@@ -65,12 +65,15 @@ pub struct ForFigure {
     pub by_mm: f64,
 }
 
+/// A figure, and the move of a handle for it, m; without one where there is none.
+pub type Asked = (ForFigure, Option<(Handle, f64)>);
+
 /// Finds the traits of a person that no girth tells, and the handles of a style for them: figures that are said of the
 /// person, and others that are clear on the body.
 ///
 /// # Errors
 /// When no standard body has the measurements of the body.
-pub fn of(style: &Style, person: &Person, body: &Body, wish: &Wish) -> Result<Vec<(ForFigure, Option<(Handle, f64)>)>> {
+pub fn of(style: &Style, person: &Person, body: &Body, wish: &Wish) -> Result<Vec<Asked>> {
     let known = style.handles();
     let said = person.figures.iter().map(|(of, amount_mm)| FigureFound { of, amount_mm, sd_mm: 0.0 });
     let mut found: Vec<FigureFound> = said.collect();

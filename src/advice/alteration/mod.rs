@@ -317,7 +317,7 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
 }
 
 /// Moves for all figures, each handle once.
-fn summed(figures: &[(ForFigure, Option<(Handle, f64)>)]) -> Vec<(Handle, f64)> {
+fn summed(figures: &[figure::Asked]) -> Vec<(Handle, f64)> {
     let mut moves: BTreeMap<Handle, f64> = BTreeMap::new();
     for (handle, amount_m) in figures.iter().filter_map(|(_, own)| *own) {
         *moves.entry(handle).or_default() += amount_m;
