@@ -25,6 +25,8 @@ const ALIKE_M: f64 = 0.1e-3;
 /// Share of its limit that a handle keeps if it cannot move that far; and the limit below which it stays instead, m.
 const TIGHTER: f64 = 0.6;
 const LEAST_LIMIT_M: f64 = 2e-3;
+/// Share of its limit from which a handle counts as at it: a tenth of what it could do may be spared.
+const AT_LIMIT: f64 = 0.85;
 /// Step of amounts in a pattern maker's drawing, mm.
 const DRAWN_MM: f64 = 0.5;
 /// Distance inside its band at which an ease is aimed, m, so that rounding of amounts keeps it there.
@@ -269,7 +271,7 @@ impl<'a> Bench<'a> {
             let names = |moved: &[(&Handle, f64)]| {
                 moved.iter().map(|(handle, _)| format!("`{}`", handle.as_str())).collect::<Vec<_>>().join(", ")
             };
-            let is_at_limit = |(handle, by_mm): &(&Handle, f64)| *by_mm >= mm(self.limit_m(**handle)) - DRAWN_MM;
+            let is_at_limit = |(handle, by_mm): &(&Handle, f64)| *by_mm >= AT_LIMIT * mm(self.limit_m(**handle));
             let at_limit: Vec<_> = own.iter().copied().filter(is_at_limit).collect();
             match (own.is_empty(), at_limit.is_empty()) {
                 (true, _) => format!("{level} is missed: no handle of this style changes it"),
