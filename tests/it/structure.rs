@@ -24,7 +24,9 @@ const TOUCHING: [&str; 8] = ["store", "spec", "wardrobe", "engine", "results", "
 
 /// Public fields in millimetres below `store`, where all else is in SI units: they are written so, in seam files and in what
 /// `pattern inspect` and `pattern propose` answer.
-const MILLIMETRES: [&str; 8] = [
+const MILLIMETRES: [&str; 10] = [
+    "body::model::figured::FigureFound.amount_mm",
+    "body::model::figured::FigureFound.sd_mm",
     "pattern::inspect::PieceReport.grain_mm",
     "pattern::inspect::PieceReport.perimeter_mm",
     "pattern::propose::ProposedSeam.a_mm",

@@ -18,7 +18,7 @@ const STEP_M: f64 = 0.002;
 /// Step of amounts in a pattern maker's drawing, mm.
 const DRAWN_MM: f64 = 0.5;
 
-/// What the trade alters for a trait.
+/// Alteration of the trade for a trait.
 struct Remedy {
     of: Trait,
     /// Handles of garments that cover the part of the body.
