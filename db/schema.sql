@@ -13,7 +13,7 @@ CREATE TABLE subject (
     hip_girth_mm REAL,
     neck_girth_mm REAL,
     across_shoulder_mm REAL,
-    created_at INTEGER NOT NULL, underbust_girth_mm REAL, thigh_girth_mm REAL, knee_girth_mm REAL, calf_girth_mm REAL, ankle_girth_mm REAL, upper_arm_girth_mm REAL, forearm_girth_mm REAL, wrist_girth_mm REAL, inseam_mm REAL, arm_length_mm REAL, foot_length_mm REAL, pose TEXT,
+    created_at INTEGER NOT NULL, underbust_girth_mm REAL, thigh_girth_mm REAL, knee_girth_mm REAL, calf_girth_mm REAL, ankle_girth_mm REAL, upper_arm_girth_mm REAL, forearm_girth_mm REAL, wrist_girth_mm REAL, inseam_mm REAL, arm_length_mm REAL, foot_length_mm REAL, pose TEXT, figure TEXT,
     UNIQUE (name, revision),
     UNIQUE (name, hash)
 ) STRICT;
@@ -635,13 +635,6 @@ CREATE TABLE scan (
     mesh BLOB NOT NULL
 ) STRICT;
 
-CREATE VIEW v_subjects AS
-SELECT name AS subject, subject.revision, sex, stature_mm, weight_kg, chest_girth_mm, waist_girth_mm, hip_girth_mm,
-    neck_girth_mm, across_shoulder_mm, underbust_girth_mm, thigh_girth_mm, knee_girth_mm, calf_girth_mm,
-    ankle_girth_mm, upper_arm_girth_mm, forearm_girth_mm, wrist_girth_mm, inseam_mm, arm_length_mm, foot_length_mm,
-    hash, subject.revision = entry.revision AS is_latest, is_retired, scan.file AS scan, pose
-FROM subject JOIN catalogue_entry AS entry USING (name) LEFT JOIN scan USING (subject_id) WHERE part = 'subject';
-
 CREATE VIEW v_outfit AS
 SELECT study.name AS study, name.value AS outfit, CAST(layer.value AS INTEGER) AS layer, job.garment, job.size, job.subject,
     job.simulator, repeat, job_id
@@ -662,3 +655,10 @@ SELECT study.name AS study, job.garment, job.size, job.subject, job.simulator, p
     mean_mm AS drawn_mm, most_mm AS drawn_most_mm, repeat, job_id
 FROM drawn JOIN job USING (job_id) JOIN study USING (study_id) JOIN job_input AS pose USING (job_id)
 WHERE is_current AND pose.name = 'carried.from';
+
+CREATE VIEW v_subjects AS
+SELECT name AS subject, subject.revision, sex, stature_mm, weight_kg, chest_girth_mm, waist_girth_mm, hip_girth_mm,
+    neck_girth_mm, across_shoulder_mm, underbust_girth_mm, thigh_girth_mm, knee_girth_mm, calf_girth_mm,
+    ankle_girth_mm, upper_arm_girth_mm, forearm_girth_mm, wrist_girth_mm, inseam_mm, arm_length_mm, foot_length_mm,
+    hash, subject.revision = entry.revision AS is_latest, is_retired, scan.file AS scan, pose, figure
+FROM subject JOIN catalogue_entry AS entry USING (name) LEFT JOIN scan USING (subject_id) WHERE part = 'subject';

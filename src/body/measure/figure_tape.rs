@@ -25,8 +25,8 @@ const SIDE: f64 = 0.95;
 /// and broad shoulders. Judgement.
 const RIDGE: [f64; 2] = [0.056, 0.085];
 
-/// Distance of the side neck point from the median plane, as a share of that of the shoulder point: of a mean body.
-const NECK: f64 = 0.34;
+/// Distance from side neck point to shoulder point along x, as a share of stature: that of a mean body.
+const SHOULDER: f64 = 0.076;
 
 /// Shares of the way from the half width of the waist to that of the hip at which the flanks are compared.
 const FLANK: [f64; 5] = [0.3, 0.4, 0.5, 0.6, 0.7];
@@ -149,8 +149,7 @@ impl Tape<'_> {
         let neck = self.neck()?;
         let read = |mesh: &TriMesh, shoulder: V3| {
             let top = |share: f64| landmarks::shoulder_top(mesh, middle + share * self.stature, ceiling);
-            let slope = (top(RIDGE[0])?.z - top(RIDGE[1])?.z) / ((RIDGE[1] - RIDGE[0]) * self.stature);
-            let fall = slope * (1.0 - NECK) * (shoulder.x - middle);
+            let fall = (top(RIDGE[0])?.z - top(RIDGE[1])?.z) / (RIDGE[1] - RIDGE[0]) * SHOULDER;
             Some([fall, shoulder.y - neck])
         };
         let (right, left) = (read(self.mesh, right)?, read(&mirrored, left)?);

@@ -168,20 +168,15 @@ impl serde::Serialize for FigureFound {
     }
 }
 
-/// Main measurements, which the standard body of a person shares.
-const MAIN: [Dimension; 6] = [
-    Dimension::Stature,
-    Dimension::ChestGirth,
-    Dimension::WaistGirth,
-    Dimension::HipGirth,
-    Dimension::NeckGirth,
-    Dimension::AcrossShoulder,
-];
+/// Main measurements, which the standard body of a person shares. Across shoulder is none: on a scan the shoulder points
+/// follow from the slope of the shoulders.
+const MAIN: [Dimension; 5] =
+    [Dimension::Stature, Dimension::ChestGirth, Dimension::WaistGirth, Dimension::HipGirth, Dimension::NeckGirth];
 
 /// Finds the traits of an upright body, built or scanned, beside those of its standard body.
 ///
-/// The standard body is built from stature, the girths of chest, waist, hip and neck, and across shoulder, and for lengths
-/// also from the height of the crotch and the girths of upper arm and thigh. All are read on both bodies by the same rules.
+/// The standard body is built from stature and the girths of chest, waist, hip and neck, and for lengths also from the
+/// height of the crotch and the girths of upper arm and thigh. All are read on both bodies by the same rules.
 /// Traits that a body does not show are left out.
 ///
 /// # Errors

@@ -26,7 +26,8 @@ pub enum Trait {
     UpperBack,
     /// Half of the front part of the chest girth, from side to side. Of women.
     Bust,
-    /// Fall from the side neck point to the shoulder point.
+    /// Fall of the ridge of the shoulder over a mean shoulder, 0.076 of the stature across: from the side neck point to the
+    /// shoulder point.
     ShoulderSlope,
     /// Distance by which the shoulder point lies in front of the middle of the neck, between front and back neck point.
     ShoulderForward,
