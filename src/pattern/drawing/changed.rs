@@ -8,15 +8,15 @@ use crate::arrange::{Placed, arrange, arranged};
 use crate::handle::Handle;
 use crate::style::{Style, StylePiece};
 use geom::V2;
-use geom::polyline::Polyline;
+use geom::polyline::{Polyline, segment_meeting};
 use geom::units::mm;
 
-/// Way of an edge, mm, from which it has an arrow.
+/// Way across an edge, mm, from which it has an arrow.
 const MOVED_MM: f64 = 1.0;
-/// Difference of two ways of neighbouring edges, mm, up to which one arrow shows both.
-const SAME_MM: f64 = 0.5;
 /// Number of parts of an edge at whose ends its way is measured.
 const PARTS: u32 = 40;
+/// Reach of the search for an edge of before, as a multiple of the way of the point that was at the same share of it.
+const REACH: f64 = 1.5;
 /// Preference for the middle of an edge, as a share of the way: an edge that has moved as a whole has its arrow there.
 const TO_MIDDLE: f64 = 0.05;
 /// Height of a line of text, mm.
@@ -30,19 +30,18 @@ const DIRECTIONS: u32 = 16;
 /// Change of a measurement, mm, from which it is listed.
 const LISTED_MM: f64 = 0.05;
 
-/// Way of a point of an edge on the sheet, mm.
+/// Way of a point across its edge on the sheet, mm.
 #[derive(Clone, Copy, Debug)]
 struct Way {
     from: V2,
     to: V2,
     /// Length, mm.
     length_mm: f64,
-    /// Position along the edge, from 0 to 1.
-    share: f64,
 }
 
 /// Draws a style that some handles have changed by their amounts, m: the pieces, and their outlines before the change
-/// dashed. An arrow shows how far each edge has moved where it has moved most, unless that is less than a millimetre.
+/// dashed. An arrow shows how far each edge has moved across itself where it has moved most to that side, unless that is
+/// less than a millimetre.
 /// Below stand the handles, and the measurements that change.
 #[must_use]
 pub fn changed_svg(before: &Style, after: &Style, moves: &[(Handle, f64)]) -> String {
@@ -100,39 +99,49 @@ fn notes(before: &Style, after: &Style, moves: &[(Handle, f64)]) -> Vec<String> 
         let [was_mm, is_mm] = [was.l2d_m, is.l2d_m].map(mm);
         format!("{}: {was_mm:.1} to {is_mm:.1} mm ({:+.1})", is.name, is_mm - was_mm)
     });
-    let key = "dashed: before; arrows: how far the cloth moves, in mm".to_owned();
+    let key = "dashed: before; arrows: from there to the edge as it is now, in mm".to_owned();
     moves.iter().map(moved).chain(changed).chain([key]).collect()
 }
 
-/// The greatest way of each edge that moves, without those that a neighbour shows.
+/// Ways across the edges of a piece: one for each stretch of an edge that has moved to one side.
 fn ways(pen: &Pen, piece: &StylePiece, before: &[Polyline]) -> Vec<Way> {
-    let edges: Vec<Way> =
-        piece.edges.iter().zip(before).map(|(edge, before)| greatest(pen, before, &edge.line)).collect();
-    let n = edges.len();
-    let is_shown_beside = |k: usize| {
-        let way = edges[k];
-        let neighbour = match way.share {
-            0.0 => (k + n - 1) % n,
-            1.0 => (k + 1) % n,
-            _ => return false,
-        };
-        let other = edges[neighbour];
-        let is_same = (other.to - other.from - (way.to - way.from)).norm() < SAME_MM;
-        // Of two edges that have moved most at their common corner, the first shows it.
-        let is_at_corner = other.share == 1.0 - way.share;
-        is_same && n > 1 && (!is_at_corner || neighbour < k)
-    };
-    (0..n).filter(|&k| edges[k].length_mm >= MOVED_MM && !is_shown_beside(k)).map(|k| edges[k]).collect()
+    piece.edges.iter().zip(before).flat_map(|(edge, before)| stretches(pen, before, &edge.line)).collect()
 }
 
-fn greatest(pen: &Pen, before: &Polyline, after: &Polyline) -> Way {
-    let way = |part: u32| {
+/// Greatest way of each stretch of an edge on which the way is at least [`MOVED_MM`], and to the same side.
+fn stretches(pen: &Pen, before: &Polyline, after: &Polyline) -> Vec<Way> {
+    let across = |part: u32| {
         let share = f64::from(part) / f64::from(PARTS);
-        let [from, to] = [before, after].map(|line| line.at(share * line.length()));
-        Way { from: pen.at(from), to: pen.at(to), length_mm: mm((to - from).norm()), share }
+        let arc_m = share * after.length();
+        let step_m = 0.5 * after.length() / f64::from(PARTS);
+        let to = after.at(arc_m);
+        let along = after.at(arc_m + step_m) - after.at(arc_m - step_m);
+        let normal = V2::new(-along.y, along.x).try_normalize(0.0).unwrap_or_else(V2::zeros);
+        let reach = normal * (REACH * (to - before.at(share * before.length())).norm());
+        // Where the edge of before is across, if it is: an edge may now be longer.
+        let meets = before.points().windows(2).filter_map(|side| {
+            let (share, _) = segment_meeting((to - reach, to + reach), (side[0], side[1]))?;
+            Some(reach * (2.0 * share - 1.0))
+        });
+        let by = -meets.min_by(|a, b| a.norm().total_cmp(&b.norm())).unwrap_or_else(V2::zeros);
+        let way = Way { from: pen.at(to - by), to: pen.at(to), length_mm: mm(by.norm()) };
+        (mm(by.dot(&normal)), way, way.length_mm * (1.0 - TO_MIDDLE * (2.0 * share - 1.0).abs()))
     };
-    let worth = |way: &Way| way.length_mm * (1.0 - TO_MIDDLE * (2.0 * way.share - 1.0).abs());
-    (1..=PARTS).map(way).fold(way(0), |best, other| if worth(&other) > worth(&best) { other } else { best })
+    let mut found: Vec<(f64, Way, f64)> = Vec::new();
+    let mut is_open = false;
+    for next in (0..=PARTS).map(across) {
+        if next.0.abs() < MOVED_MM {
+            is_open = false;
+            continue;
+        }
+        match found.last_mut().filter(|last| is_open && last.0.signum() == next.0.signum()) {
+            Some(last) if next.2 > last.2 => *last = next,
+            Some(_) => {}
+            None => found.push(next),
+        }
+        is_open = true;
+    }
+    found.into_iter().map(|(_, way, _)| way).collect()
 }
 
 impl Way {
@@ -253,14 +262,15 @@ mod tests {
         };
         use Handle::*;
         check(Model::Tshirt, &[], 0, &["dashed: before"]);
-        // The lower edges of front and back go down, and both side seams of each below the armhole, which they end at.
+        // The lower edges of front and back go down. Their side seams lengthen, and stay where they are.
         check(Model::Tshirt, &[(BodyLength, 0.02)], 2, &["body length +20.0 mm", ">20.0</text>"]);
         check(Model::Tshirt, &[(Hem, 0.02)], 4, &["hem +20.0 mm, half of the girth", ">10.0</text>"]);
+        // Two lower edges; eight side seams at the waist, and four of them lower down, where they now lie outside.
         check(
             Model::Dress,
             &[(Waist, -0.01), (SkirtLength, 0.03)],
-            10,
-            &["waist -10.0 mm, half of the girth", ">30.0</text>"],
+            14,
+            &["waist -10.0 mm, half of the girth", ">30.4</text>"],
         );
     }
 }
