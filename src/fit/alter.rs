@@ -85,8 +85,9 @@ const MOST_HANDLES: usize = 7;
 /// one that misses a goal even if all handles that may still join move to their limits.
 #[must_use]
 pub fn fewest(goals: &[Goal], limits: &[[f64; 2]], costs: &[f64]) -> Change {
+    let asked = goals;
     let scale: Vec<f64> = limits.iter().map(|limit| limit[1].max(-limit[0])).collect();
-    let all = least_change(goals, limits, &scale);
+    let all = least_change(asked, limits, &scale);
     let met = |(goal, value): (&Goal, &f64)| match goal.gives {
         None => {
             // What is out of reach need not be reached as far by a handle more.
@@ -95,15 +96,28 @@ pub fn fewest(goals: &[Goal], limits: &[[f64; 2]], costs: &[f64]) -> Change {
         }
         Some(_) => goal.clone(),
     };
-    let goals: Vec<Goal> = goals.iter().zip(&all.values).map(met).collect();
+    let goals: Vec<Goal> = asked.iter().zip(&all.values).map(met).collect();
     let moves = |place: &usize| scale[*place] > 0.0 && goals.iter().any(|goal| goal.sensitivity[*place] != 0.0);
     let mut order: Vec<usize> = (0..scale.len()).filter(moves).collect();
     order.sort_by(|a, b| costs[*a].total_cmp(&costs[*b]));
     let mut search = Search { goals: &goals, limits, costs, scale: &scale, order: &order, best: None };
     search.extend(&mut Vec::new(), 0, 0.0);
-    let amounts = search.best.map_or(all.amounts, |(_, amounts)| amounts);
-    let values = goals.iter().map(|goal| goal.value + dot(&goal.sensitivity, &amounts)).collect();
-    Change { amounts, values }
+    let Some((_, amounts)) = search.best else { return all };
+    // What was spared to choose the set is not spared within it.
+    let chosen: Vec<usize> = (0..amounts.len()).filter(|place| amounts[*place] != 0.0).collect();
+    least_of(&chosen, asked, limits, &scale)
+}
+
+/// Solves for the amounts of a set of handles. All others stay.
+fn least_of(set: &[usize], goals: &[Goal], limits: &[[f64; 2]], scale: &[f64]) -> Change {
+    let pick = |all: &[f64]| -> Vec<f64> { set.iter().map(|handle| all[*handle]).collect() };
+    let own: Vec<Goal> =
+        goals.iter().map(|goal| Goal { sensitivity: pick(&goal.sensitivity), ..goal.clone() }).collect();
+    let own_limits: Vec<[f64; 2]> = set.iter().map(|handle| limits[*handle]).collect();
+    let change = least_change(&own, &own_limits, &pick(scale));
+    let mut amounts = vec![0.0; scale.len()];
+    set.iter().zip(change.amounts).for_each(|(handle, amount)| amounts[*handle] = amount);
+    Change { amounts, values: change.values }
 }
 
 /// Cost of a change: that of its handles, their amounts as shares of their limits, and that of goals missed.
@@ -171,18 +185,12 @@ impl Search<'_> {
 
     /// Solves for the amounts of a set, and keeps it if it meets the goals at less cost than the best one.
     fn weigh(&mut self, set: &[usize]) {
-        let pick = |all: &[f64]| -> Vec<f64> { set.iter().map(|handle| all[*handle]).collect() };
-        let goals: Vec<Goal> =
-            self.goals.iter().map(|goal| Goal { sensitivity: pick(&goal.sensitivity), ..goal.clone() }).collect();
-        let limits: Vec<[f64; 2]> = set.iter().map(|handle| self.limits[*handle]).collect();
-        let change = least_change(&goals, &limits, &pick(self.scale));
+        let change = least_of(set, self.goals, self.limits, self.scale);
         let is_met =
-            goals.iter().zip(&change.values).all(|(goal, value)| goal.gives.is_some() || off(goal, *value) <= MET);
-        let cost = cost(&goals, &limits, &pick(self.costs), &change.amounts);
+            self.goals.iter().zip(&change.values).all(|(goal, value)| goal.gives.is_some() || off(goal, *value) <= MET);
+        let cost = cost(self.goals, self.limits, self.costs, &change.amounts);
         if is_met && self.best.as_ref().is_none_or(|(best, _)| cost < *best) {
-            let mut amounts = vec![0.0; self.scale.len()];
-            set.iter().zip(change.amounts).for_each(|(handle, amount)| amounts[*handle] = amount);
-            self.best = Some((cost, amounts));
+            self.best = Some((cost, change.amounts));
         }
     }
 }
@@ -299,7 +307,7 @@ mod tests {
         let both = [goal(0.0, &[1.0, 2.0, 0.0], [0.010, 0.020]), goal(0.0, &[1.0, 0.0, 2.0], [0.010, 0.020])];
         check_set(&both, &[WIDE_M; 3], &[10.0, 0.0, 0.0]);
         // Nothing reaches the goal: the handle goes as far as it may.
-        check_set(&[goal(0.0, &[1.0, 0.05], [0.050, 0.060])], &[WIDE_M; 2], &[19.0, 0.0]);
+        check_set(&[goal(0.0, &[1.0, 0.05], [0.050, 0.060])], &[WIDE_M; 2], &[20.0, 0.0]);
         check_set(&[goal(0.015, &[1.0], [0.010, 0.020])], &[WIDE_M], &[0.0]);
     }
 

@@ -46,7 +46,8 @@ pub(super) fn subjects(
         };
         let pose = reader.text(&place, "pose").and_then(|name| pose(reader, &place, &name));
         let found = found.map(|person| Person { pose: pose.or(person.pose), ..person });
-        let found = found.map(|person| figured(reader, &place, person));
+        let figures = reader.texts(&place, "figure").unwrap_or_default();
+        let found = found.map(|person| figured(reader, &place, person, &figures));
         let poses = poses(reader, &place);
         let from = reader.text(&place, "carried_from").and_then(|name| self::pose(reader, &place, &name));
         if from.is_some() && poses.is_empty() && found.as_ref().is_some_and(|person| person.pose.is_none()) {
@@ -67,8 +68,7 @@ pub(super) fn subjects(
 }
 
 /// The person with the figures that a subject names.
-fn figured(reader: &mut Reader<'_>, place: &Place<'_>, person: Person) -> Person {
-    let texts = reader.texts(place, "figure").unwrap_or_default();
+fn figured(reader: &mut Reader<'_>, place: &Place<'_>, person: Person, texts: &[Spanned<&str>]) -> Person {
     let Some(first) = texts.first() else { return person };
     if person.scan.is_some() {
         let message =
