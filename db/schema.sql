@@ -177,6 +177,7 @@ CREATE TABLE ease (
     level TEXT NOT NULL,
     pattern_girth_mm REAL NOT NULL,
     body_girth_mm REAL NOT NULL,
+    is_held INTEGER NOT NULL DEFAULT 1,
     PRIMARY KEY (study_id, garment, size, subject, level)
 ) STRICT, WITHOUT ROWID;
 
@@ -500,6 +501,8 @@ CREATE TABLE fit_target (
     intended TEXT NOT NULL CHECK (intended IN ('compression', 'slim', 'regular', 'loose')),
     least_mm REAL NOT NULL,
     most_mm REAL NOT NULL,
+    is_firm INTEGER NOT NULL DEFAULT 0,
+    must_close INTEGER NOT NULL DEFAULT 0,
     PRIMARY KEY (study_id, garment, level, is_top)
 ) STRICT, WITHOUT ROWID;
 
@@ -508,7 +511,8 @@ WITH tops AS (
     SELECT DISTINCT study_id, garment FROM ease WHERE level IN ('chest', 'bust')
 ), aimed AS (
     SELECT ease.study_id, study.name AS study, ease.garment, ease.size, ease.subject, ease.level, pattern_girth_mm, body_girth_mm,
-        pattern_girth_mm - body_girth_mm AS ease_mm, intended, least_mm, most_mm
+        pattern_girth_mm - body_girth_mm AS ease_mm, intended, least_mm, CASE WHEN is_held OR is_firm THEN most_mm END AS most_mm,
+        must_close AND pattern_girth_mm < body_girth_mm AS cannot_close
     FROM ease JOIN study USING (study_id)
         LEFT JOIN fit_target AS target ON target.study_id = ease.study_id AND target.garment = ease.garment
             AND target.level = ease.level
@@ -519,8 +523,9 @@ WITH tops AS (
     FROM aimed
 )
 SELECT study, garment, size, subject, level, pattern_girth_mm, body_girth_mm, ease_mm, intended, least_mm, most_mm, off_mm,
-    CASE WHEN off_mm < 0 THEN 'tight' WHEN off_mm > 0 THEN 'loose' WHEN off_mm = 0 THEN 'as_meant' END AS verdict,
-    CASE WHEN off_mm < 0 THEN -2 * off_mm ELSE off_mm END AS weight_mm
+    CASE WHEN cannot_close THEN 'too_small' WHEN off_mm < 0 THEN 'tight' WHEN off_mm > 0 THEN 'loose'
+        WHEN off_mm = 0 THEN 'as_meant' END AS verdict,
+    CASE WHEN off_mm < 0 THEN -2 * off_mm ELSE off_mm END + CASE WHEN cannot_close THEN 60 ELSE 0 END AS weight_mm
 FROM off;
 
 CREATE VIEW v_size AS

@@ -41,7 +41,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let by_hybrid = hybrid::simulate(&body, &field, &meshes, cotton, &hybrid::Params::default(), &mut Silent)?;
 
         // The least ease decides the fit class; the thesis's rule names a simulator for it.
-        let levels = garment.fit_levels.iter().map(|fit| (fit.level.as_str(), fit.girth_m));
+        let levels = garment.fit_levels.iter().map(|fit| (fit.level.as_str(), fit.girth_m, true));
         let eases = fit::ease(levels, |level| (level == "chest").then_some(CHEST_M), &Cuts::default());
         let ease = eases.first().ok_or("no chest")?;
         let trusted = ease.class.rule_says();

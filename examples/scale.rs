@@ -241,6 +241,7 @@ fn quick(spec: &JobSpec, _: &mut dyn Monitor) -> Result<Outcome> {
         body_girth_m: spec.person.measurements.stature_m() * 0.52,
         class: FitClass::Just,
         borderline: false,
+        is_held: true,
     };
     Ok(Outcome {
         converged: true,

@@ -4,6 +4,7 @@ use super::args::Alter;
 use super::context::Context;
 use super::{End, Outcome, output};
 use advice::{Alteration, AlteredLevel, AlteredReading, Wish};
+use fit::target::band_words;
 use geom::units::signed_tenths;
 use store::{Table, Value};
 
@@ -97,8 +98,7 @@ fn moves(found: &Alteration) -> Table {
 fn levels(found: &Alteration) -> Table {
     let columns = ["level", "target_mm", "before_mm", "promised_mm", "achieved_mm", ""];
     let row = |altered: &AlteredLevel| {
-        let target =
-            altered.target_mm.map_or(Value::Null, |[least, most]| Value::Text(format!("{least:.0} to {most:.0}")));
+        let target = altered.target_mm.map_or(Value::Null, |band| Value::Text(band_words(band)));
         let ease = |mm: f64| Value::Text(signed_tenths(mm));
         let verdict = match (altered.target_mm, altered.is_met()) {
             (None, _) => "",

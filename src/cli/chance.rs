@@ -4,6 +4,7 @@ use super::args::Chance as Arguments;
 use super::context::Context;
 use super::{CliError, End, Outcome, output, pictures};
 use advice::{Chance, DrapedChance, LevelChance, LikelyDimension, PlantedLevel, Question, Reliability, SizeChance};
+use fit::target::band_words;
 use store::{Table, Value};
 
 /// Accepted share of true values within the 80 % intervals.
@@ -100,7 +101,7 @@ fn sizes(sizes: &[SizeChance]) -> Table {
 
 fn levels(size: &SizeChance) -> Table {
     let row = |level: &LevelChance| {
-        let target = level.target_mm.map_or(String::new(), |[least, most]| format!("{least:.0} to {most:.0}"));
+        let target = level.target_mm.map_or(String::new(), band_words);
         let [low, middle, high] = level.ease_mm.map(|mm| format!("{mm:+.0}"));
         let shares = [level.as_meant(), level.tight, level.loose].map(percent);
         let [fits, tight, loose] = if level.target_mm.is_some() { shares } else { Default::default() };

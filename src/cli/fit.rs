@@ -4,6 +4,7 @@ use super::answers::NO_EASE;
 use super::args::Fit;
 use super::context::Context;
 use super::{End, Outcome, output};
+use fit::target::band_words;
 use results::{FitCard, LevelSits, Sits, SizeSits, fit_card};
 use store::{Table, Value};
 
@@ -48,9 +49,7 @@ fn table(card: &FitCard) -> Table {
         let level_of = |size: &SizeSits| size.levels.iter().find(|sits| sits.level == level).cloned();
         let all: Vec<_> = sizes.iter().map(level_of).collect();
         let known = all.iter().flatten().next();
-        let target = known
-            .and_then(|sits| sits.target_mm)
-            .map_or(Value::Null, |[least, most]| Value::Text(format!("{least:.0} to {most:.0}")));
+        let target = known.and_then(|sits| sits.target_mm).map_or(Value::Null, |band| Value::Text(band_words(band)));
         let body = known.map_or(Value::Null, |sits| Value::Integer(sits.body_girth_mm.round() as i64));
         let mut row = vec![Value::Text(level.replace('_', " ")), body, target];
         row.extend(all.iter().map(|sits| sits.as_ref().map_or(Value::Null, |sits| Value::Text(short(sits)))));

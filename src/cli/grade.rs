@@ -6,6 +6,7 @@ use super::output::tenths;
 use super::{CliError, End, Outcome, output, xlsx};
 use advice::Grown;
 use advice::{GradeWish, Grading, SizeSet, SizeShare};
+use fit::target::band_words;
 use report::file_part;
 use spec::bodies::Sex;
 use store::{Table, Value, files};
@@ -120,12 +121,8 @@ fn levels(found: &Grading) -> Table {
     let columns =
         ["level", "target_mm", "own within_percent", "new within_percent", "own fails_percent", "new fails_percent"];
     let rows = found.levels.iter().map(|level| {
-        let [least, most] = level.target_mm;
         let shares = level.within_percent.into_iter().chain(level.fails_percent).map(tenths);
-        [text(level.level.replace('_', " ")), text(format!("{least:.0} to {most:.0}"))]
-            .into_iter()
-            .chain(shares)
-            .collect()
+        [text(level.level.replace('_', " ")), text(band_words(level.target_mm))].into_iter().chain(shares).collect()
     });
     Table::new(columns, rows)
 }

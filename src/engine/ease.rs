@@ -67,7 +67,8 @@ fn ease(lengths: &[Length], body: &Body) -> Vec<Ease> {
         let height_m = lengths.iter().find(|length| length.level == level).and_then(|length| length.height_m);
         height_m.and_then(|height_m| body.trunk_girth_at(height_m)).or_else(|| body_length_m(&body.girths, level))
     };
-    fit::ease(lengths.iter().map(|length| (length.level.as_str(), length.length_m)), body_m, &Cuts::default())
+    let levels = lengths.iter().map(|length| (length.level.as_str(), length.length_m, length.is_held));
+    fit::ease(levels, body_m, &Cuts::default())
 }
 
 /// Length of a garment at a level.
@@ -78,6 +79,8 @@ pub struct Length {
     pub length_m: f64,
     /// Height above the floor where the body is measured, m; `None` for the height of the level.
     pub height_m: Option<f64>,
+    /// True if the cut holds the garment to the body there.
+    pub is_held: bool,
     /// Path on the pieces along which the length is measured; where half a girth is measured, the path of this half.
     pub path: Vec<PathPart>,
 }
@@ -89,22 +92,26 @@ pub fn lengths(style: &Style, stand: &Stand) -> Vec<Length> {
 
 fn lengths_on(style: &Style, stands: &[Stand]) -> Vec<Vec<Length>> {
     let is_stated = |level: &str| style.fit_levels.iter().any(|(name, _)| name == level);
-    let stated = || {
-        style.fit_levels.iter().map(|(level, path)| Length {
+    let stated = |worn: &[WornLength]| -> Vec<Length> {
+        let is_held = |level: &str| worn.iter().find(|worn| worn.level == level).is_none_or(|worn| worn.is_held);
+        let length = |(level, path): &(String, Vec<PathPart>)| Length {
             level: level.clone(),
             length_m: style.path_length_m(path),
             height_m: None,
+            is_held: is_held(level),
             path: path.clone(),
-        })
+        };
+        style.fit_levels.iter().map(length).collect()
     };
     let found = |worn: WornLength| Length {
         level: worn.level.to_owned(),
         length_m: worn.length_m,
         height_m: worn.height_m,
+        is_held: worn.is_held,
         path: worn.path,
     };
     let all = |worn: Vec<WornLength>| {
-        stated().chain(worn.into_iter().filter(|worn| !is_stated(worn.level)).map(found)).collect()
+        stated(&worn).into_iter().chain(worn.into_iter().filter(|worn| !is_stated(worn.level)).map(found)).collect()
     };
     style.worn_lengths_on(stands).into_iter().map(all).collect()
 }

@@ -8,7 +8,7 @@ use rusqlite::{Connection, OptionalExtension, Transaction, params};
 
 use crate::error::EngineError;
 use fit::Simulator;
-use fit::target::TARGETS;
+use fit::target::{TARGETS, is_girth};
 use geom::units::mm;
 use spec::{Cell, Change, Inputs, JobSpec, Limits, Selection, Study};
 use store::owner::Watch;
@@ -217,15 +217,28 @@ pub(crate) fn store_study(transaction: &Transaction<'_>, study: &Study) -> Resul
 fn store_targets(transaction: &Transaction<'_>, study_id: i64, study: &Study) -> Result<()> {
     transaction.execute("DELETE FROM fit_target WHERE study_id = ?", [study_id])?;
     let mut statement = transaction.prepare_cached(
-        "INSERT INTO fit_target (study_id, garment, level, is_top, intended, least_mm, most_mm) VALUES (?, ?, ?, ?, ?, ?, ?)",
+        "INSERT INTO fit_target (study_id, garment, level, is_top, intended, least_mm, most_mm, is_firm, must_close)
+        VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
     )?;
     for garment in study.worn() {
         let own = garment.target.own_m.keys().map(String::as_str);
         let levels: BTreeSet<&str> = TARGETS.iter().map(|row| row.level).chain(own).collect();
         for (level, is_top) in levels.into_iter().flat_map(|level| [(level, false), (level, true)]) {
-            let Some([least, most]) = garment.target.band_m(level, is_top).map(|band| band.map(mm)) else { continue };
+            let Some([least, most]) = garment.target.meant_m(level, is_top).map(|band| band.map(mm)) else { continue };
             let intended = garment.target.intended.as_str();
-            statement.execute(params![study_id, garment.name, level, is_top, intended, least, most])?;
+            let is_firm = garment.target.is_firm(level);
+            let must_close = garment.target.is_rigid && is_girth(level);
+            statement.execute(params![
+                study_id,
+                garment.name,
+                level,
+                is_top,
+                intended,
+                least,
+                most,
+                is_firm,
+                must_close
+            ])?;
         }
     }
     Ok(())

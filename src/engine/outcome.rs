@@ -301,12 +301,12 @@ pub(crate) fn write_ease(
         .prepare_cached("DELETE FROM ease WHERE study_id = ? AND garment = ? AND size = ? AND subject = ?")?
         .execute(params![study_id, garment, size, subject])?;
     let mut statement = transaction.prepare_cached(
-        "INSERT INTO ease (study_id, garment, size, subject, level, pattern_girth_mm, body_girth_mm)
-        VALUES (?, ?, ?, ?, ?, ?, ?)",
+        "INSERT INTO ease (study_id, garment, size, subject, level, pattern_girth_mm, body_girth_mm, is_held)
+        VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
     )?;
     for ease in eases {
         let (pattern_mm, body_mm) = (mm(ease.pattern_girth_m), mm(ease.body_girth_m));
-        statement.execute(params![study_id, garment, size, subject, ease.level, pattern_mm, body_mm])?;
+        statement.execute(params![study_id, garment, size, subject, ease.level, pattern_mm, body_mm, ease.is_held])?;
     }
     Ok(())
 }

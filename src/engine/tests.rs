@@ -124,6 +124,7 @@ fn outcome(spec: &JobSpec) -> Outcome {
         body_girth_m: 0.9,
         class: FitClass::Tight,
         borderline: true,
+        is_held: true,
     };
     Outcome {
         converged: spec.size != "m",

@@ -1,7 +1,7 @@
 //! Probability that sizes fit, estimated from draws of uncertain measurements, with confidence intervals.
 
 use super::resample::quantile;
-use super::target::{off_m, weight_m};
+use super::target::Band;
 
 /// Confidence level of every interval in this module.
 pub const TOLD: f64 = 0.8;
@@ -22,10 +22,10 @@ pub enum Sitting {
     Loose,
 }
 
-/// Compares an ease with its band, m.
+/// Compares an ease, m, with its band.
 #[must_use]
-pub fn sitting(ease_m: f64, band_m: [f64; 2]) -> Sitting {
-    match off_m(ease_m, band_m) {
+pub fn sitting(ease_m: f64, band: &Band) -> Sitting {
+    match band.off_m(ease_m) {
         off if off <= -DEPARTURE_M => Sitting::Tight,
         off if off >= DEPARTURE_M => Sitting::Loose,
         _ => Sitting::Fits,
@@ -40,19 +40,19 @@ pub struct Verdict {
     /// Index of the level that lies farthest outside its band, with departures to the tight side doubled. `None` for a
     /// size that fits.
     pub decides: Option<usize>,
-    /// Weighted departure of that level, m ([`weight_m`]).
+    /// Weighted departure of that level, m ([`Band::weight_m`]).
     pub weight_m: f64,
 }
 
 /// Judges a size by the eases at its levels, m. A level without a band does not count.
 #[must_use]
-pub fn verdict(eases_m: &[f64], bands_m: &[Option<[f64; 2]>]) -> Verdict {
+pub fn verdict(eases_m: &[f64], bands: &[Option<Band>]) -> Verdict {
     let mut worst = Verdict { sitting: Sitting::Fits, decides: None, weight_m: 0.0 };
-    for (level, (ease_m, band)) in eases_m.iter().zip(bands_m).enumerate() {
+    for (level, (ease_m, band)) in eases_m.iter().zip(bands).enumerate() {
         let Some(band) = band else { continue };
-        let weight_m = weight_m(off_m(*ease_m, *band));
+        let weight_m = band.weight_m(*ease_m);
         if weight_m > worst.weight_m {
-            let sitting = sitting(*ease_m, *band);
+            let sitting = sitting(*ease_m, band);
             worst = Verdict { sitting, decides: (sitting != Sitting::Fits).then_some(level), weight_m };
         }
     }
@@ -108,7 +108,8 @@ mod tests {
 
     #[test]
     fn the_worst_level_judges_a_size_and_the_least_bad_is_worn() {
-        let bands = [Some([0.05, 0.12]), None, Some([0.04, 0.12])];
+        let band = |ends_m| Some(Band { ends_m, must_close: false });
+        let bands = [band([0.05, 0.12]), None, band([0.04, 0.12])];
         let check = |eases: [f64; 3], sitting, decides| {
             let found = verdict(&eases, &bands);
             assert_eq!((found.sitting, found.decides), (sitting, decides), "{eases:?}");

@@ -52,6 +52,14 @@ pub struct Ease {
     pub class: FitClass,
     /// True if the ease lies in an overlap of the thesis's ranges.
     pub borderline: bool,
+    /// True if the cut holds the garment to the body there: too much ease is a fault.
+    #[serde(default = "held")]
+    pub is_held: bool,
+}
+
+/// Levels of outcomes that an earlier version wrote.
+const fn held() -> bool {
+    true
 }
 
 impl Ease {
@@ -68,17 +76,17 @@ impl Ease {
     }
 }
 
-/// Ease at each fit level of a garment, given by name and pattern girth, m. A level whose body girth is unknown is left
-/// out.
+/// Ease at each fit level of a garment, given by name and pattern girth, m, and whether the cut holds it to the body. A
+/// level whose body girth is unknown is left out.
 #[must_use]
 pub fn ease<'l>(
-    levels: impl IntoIterator<Item = (&'l str, f64)>,
+    levels: impl IntoIterator<Item = (&'l str, f64, bool)>,
     body_girth_m: impl Fn(&str) -> Option<f64>,
     cuts: &Cuts,
 ) -> Vec<Ease> {
     levels
         .into_iter()
-        .filter_map(|(level, pattern_girth_m)| {
+        .filter_map(|(level, pattern_girth_m, is_held)| {
             let body_girth_m = body_girth_m(level)?;
             let ease_m = pattern_girth_m - body_girth_m;
             Some(Ease {
@@ -87,6 +95,7 @@ pub fn ease<'l>(
                 body_girth_m,
                 class: cuts.classify(ease_m),
                 borderline: cuts.is_borderline(ease_m),
+                is_held,
             })
         })
         .collect()

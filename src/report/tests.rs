@@ -12,6 +12,7 @@ fn ease(pattern_girth_m: f64, body_girth_m: f64) -> Ease {
         pattern_girth_m,
         body_girth_m,
         class: cuts.classify(ease_m),
+        is_held: true,
         borderline: cuts.is_borderline(ease_m),
     }
 }

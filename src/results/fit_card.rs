@@ -3,7 +3,7 @@
 use rusqlite::Row;
 use serde::Serialize;
 
-use fit::target::{is_within_reach, weight_m};
+use fit::target::is_within_reach;
 use geom::units::from_mm;
 use store::{Result, Store, StudyError};
 
@@ -18,10 +18,15 @@ pub struct LevelSits {
     pub body_girth_mm: f64,
     /// Ease: pattern length minus body length, mm.
     pub ease_mm: f64,
-    /// Least and greatest target ease, mm; `None` where there is no target.
+    /// Least and greatest target ease, mm; `None` where there is no target. The greatest is infinite where the garment
+    /// hangs free.
     pub target_mm: Option<[f64; 2]>,
     /// Departure of the ease from its target, mm: below 0 if too tight. `None` without a target.
     pub off_mm: Option<f64>,
+    /// Weight of the departure, mm: double where too tight, a grade step more where the garment cannot be closed.
+    pub weight_mm: Option<f64>,
+    /// True for a girth smaller than the body in a fabric that does not stretch.
+    pub cannot_close: bool,
     /// Angle round the body over which the drape covers the level, degrees; beyond it the hem hangs above the level.
     /// `None` where the drape covers the level all round, or there is no drape.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -68,6 +73,7 @@ impl LevelSits {
             return format!("covered {covered_deg:.0} of 360 degrees");
         }
         match self.sits() {
+            _ if self.cannot_close => format!("smaller than the body by {:.0} mm, cannot be closed", -self.ease_mm),
             None => "as designed".to_owned(),
             Some(Sits::Tight) if self.ease_mm < 0.0 => format!("tight by {by_mm:.0} mm, smaller than the body"),
             Some(Sits::Tight) => format!("tight by {by_mm:.0} mm"),
@@ -95,7 +101,7 @@ impl SizeSits {
     /// none has a target.
     fn judge(&mut self) -> Option<f64> {
         let all = self.levels.iter().filter(|level| level.covered_deg.is_none());
-        let weighed = all.filter_map(|level| Some((level, weight_m(from_mm(level.off_mm?)))));
+        let weighed = all.filter_map(|level| Some((level, from_mm(level.weight_mm?))));
         let worst = weighed.reduce(|worst, next| if next.1 > worst.1 { next } else { worst });
         self.worst_level = worst.map(|(level, _)| level.level.clone());
         worst.map(|(_, weight_m)| weight_m)
@@ -111,7 +117,7 @@ impl SizeSits {
     /// step. A size without targets may be worn.
     #[must_use]
     pub fn is_within_reach(&self) -> bool {
-        let weight_m = self.worst().and_then(|level| level.off_mm).map(|off| weight_m(from_mm(off)));
+        let weight_m = self.worst().and_then(|level| level.weight_mm).map(from_mm);
         weight_m.is_none_or(is_within_reach)
     }
 
@@ -122,13 +128,22 @@ impl SizeSits {
         (self.place == Some(1)).then_some(mark)
     }
 
+    /// True for trousers or a skirt whose hip was not found on the pattern.
+    fn lacks_hip(&self) -> bool {
+        let has = |level: &str| self.levels.iter().any(|known| known.level == level);
+        has("waist") && !["hip", "chest", "bust"].into_iter().any(has)
+    }
+
     /// Description of the worst level.
     #[must_use]
     pub fn words(&self) -> String {
         let worst = self.worst().filter(|level| level.sits().is_some_and(|sits| sits != Sits::AsMeant));
-        worst.map_or("every level as meant".to_owned(), |level| {
-            format!("{} {}", level.level.replace('_', " "), level.words())
-        })
+        let told = worst.map(|level| format!("{} {}", level.level.replace('_', " "), level.words()));
+        match (told, self.lacks_hip()) {
+            (told, false) => told.unwrap_or_else(|| "every level as meant".to_owned()),
+            (None, true) => "every known level as meant; hip not known".to_owned(),
+            (Some(told), true) => format!("{told}; hip not known"),
+        }
     }
 }
 
@@ -268,7 +283,7 @@ pub fn fit_cards(store: &Store, study: &str, garment: Option<&str>, subject: Opt
 /// All fit cards of a study, in its order of garments and subjects.
 fn all_fit_cards(store: &Store, study: &str) -> Result<Vec<FitCard>> {
     let sql = "SELECT v_fit.garment, v_fit.subject, v_fit.size, place, v_fit.intended, level, pattern_girth_mm, body_girth_mm,
-            ease_mm, least_mm, most_mm, off_mm, worst_level
+            ease_mm, least_mm, most_mm, off_mm, worst_level, weight_mm, v_fit.verdict = 'too_small'
         FROM v_fit LEFT JOIN v_size USING (study, garment, size, subject)
         WHERE study = :study
         ORDER BY
@@ -387,8 +402,10 @@ fn read(row: &Row<'_>) -> rusqlite::Result<Found> {
             pattern_girth_mm: row.get(6)?,
             body_girth_mm: row.get(7)?,
             ease_mm: row.get(8)?,
-            target_mm: target[0].zip(target[1]).map(|(least, most)| [least, most]),
+            target_mm: target[0].map(|least| [least, target[1].unwrap_or(f64::INFINITY)]),
             off_mm: row.get(11)?,
+            weight_mm: row.get(13)?,
+            cannot_close: row.get::<_, Option<bool>>(14)?.unwrap_or(false),
             covered_deg: None,
         },
         worst_level: row.get(12)?,
@@ -407,6 +424,8 @@ mod tests {
             ease_mm: *ease_mm,
             target_mm: Some([ease_mm - off_mm, ease_mm - off_mm + 50.0]),
             off_mm: Some(*off_mm),
+            weight_mm: Some(if *off_mm < 0.0 { -2.0 * off_mm } else { *off_mm }),
+            cannot_close: false,
             covered_deg: None,
         };
         let levels = eases_mm.iter().map(level).collect();

@@ -108,7 +108,7 @@ fn write_garment(text: &mut String, files: &mut Files, garment: &GarmentEntry) {
     for (name, value) in garment.parameters.iter() {
         let _ = writeln!(text, "parameters.{name} = {value}");
     }
-    let Target { intended, own_m } = &garment.target;
+    let Target { intended, own_m, .. } = &garment.target;
     if *intended != Intended::default() {
         let _ = writeln!(text, "intended_fit = \"{}\"", intended.as_str());
     }

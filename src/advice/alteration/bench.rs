@@ -54,6 +54,8 @@ pub struct Bench<'a> {
     target: &'a Target,
     /// Ease at every level: of the style as it is, and with the given moves.
     before: BTreeMap<String, f64>,
+    /// Levels at which the garment hangs free.
+    free: BTreeSet<String>,
     given: Vec<(Handle, f64)>,
     fitted: BTreeMap<String, f64>,
     /// Sensitivity of every level to each handle, and the cost of the handle, in the order of `handles`; empty where
@@ -73,10 +75,13 @@ impl<'a> Bench<'a> {
         given: Vec<(Handle, f64)>,
         (body, target, wish): (&'a Body, &'a Target, &'a Wish),
     ) -> Result<Self> {
+        let on_body = ease::on(style, body).into_iter();
+        let free = on_body.filter(|ease| !ease.is_held).map(|ease| ease.level).collect();
         let before = eases(style, body);
         let fitted = eases(&style.moved(&given).origin(Origin::Alter)?, body);
         let (handles, changes, costs, left_out) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let mut bench = Self { style, handles, left_out, wish, body, target, before, given, fitted, changes, costs };
+        let mut bench =
+            Self { style, handles, left_out, wish, body, target, before, free, given, fitted, changes, costs };
         if wish.moves_mm.is_empty() {
             bench.see_handles();
         } else {
@@ -99,7 +104,7 @@ impl<'a> Bench<'a> {
     fn band_m(&self, level: &str) -> Option<[f64; 2]> {
         let is_top = ["chest", "bust"].iter().any(|chest| self.has_level(chest));
         let own = self.wish.targets.get(level).map(|band| band.map(from_mm));
-        own.or_else(|| self.target.band_m(level, is_top))
+        own.or_else(|| self.target.band(level, is_top, !self.free.contains(level)).map(|band| band.ends_m))
     }
 
     /// Greatest amount of a handle, m.

@@ -1,11 +1,13 @@
 //! Ease of all sizes on a subject whose dimensions are uncertain: linear about the median body, from bodies in which
 //! one dimension differs.
 
+use std::collections::BTreeMap;
+
 use crate::chance::Question;
 use body::{Body, Dimension, Likely, Measurements};
 use engine::ease;
 use fit::Draw;
-use fit::target::Target;
+use fit::target::{Band, Target};
 use geom::units::from_mm;
 use pattern::Style;
 use spec::bodies;
@@ -18,8 +20,8 @@ const REACH: f64 = 1.281_551_565_544_6;
 pub(super) struct Level {
     /// Level of the body, such as `chest`.
     pub name: String,
-    /// Least and greatest target ease, m; `None` without a target.
-    pub band_m: Option<[f64; 2]>,
+    /// Ease that is meant; `None` without a target.
+    pub band: Option<Band>,
     /// Ease on the median body, m.
     middle_m: f64,
     /// Derivative of the ease with respect to the logarithm of each dimension, m, in the order of
@@ -40,9 +42,9 @@ pub(super) struct Sized {
 }
 
 impl Sized {
-    /// Target ease at each level, m.
-    pub fn bands(&self) -> Vec<Option<[f64; 2]>> {
-        self.levels.iter().map(|level| level.band_m).collect()
+    /// Ease that is meant at each level.
+    pub fn bands(&self) -> Vec<Option<Band>> {
+        self.levels.iter().map(|level| level.band).collect()
     }
 
     /// Draws how far a made garment is off its pattern at each level, m. Levels of the same part share one draw.
@@ -162,7 +164,10 @@ impl Bench {
         let ease_at = |eases: &Eases, level: &str| eases.iter().find(|(name, _)| name == level).map(|(_, m)| *m);
         let bodies = [Some(built), scanned].into_iter().chain(moved.iter().flatten().map(Option::as_ref));
         let all: Vec<&Body> = bodies.clone().flatten().collect();
-        let mut found = ease::on_all(style, &all).into_iter();
+        let found = ease::on_all(style, &all);
+        let held: BTreeMap<String, bool> =
+            found.iter().flatten().map(|ease| (ease.level.clone(), ease.is_held)).rev().collect();
+        let mut found = found.into_iter();
         let next = |body: Option<&Body>| -> Option<Eases> {
             let eases = body.and_then(|_| found.next())?;
             Some(eases.into_iter().map(|ease| (ease.level.clone(), ease.ease_m())).collect())
@@ -184,7 +189,7 @@ impl Bench {
             let slopes = self.dimensions.iter().zip(&moved).map(|moved| slope(name, *here, moved)).collect();
             let found = Level {
                 name: name.clone(),
-                band_m: target.band_m(name, is_top),
+                band: target.band(name, is_top, held.get(name).copied().unwrap_or(true)),
                 middle_m: *here,
                 slopes,
                 part,

@@ -257,12 +257,12 @@ fn size_chance(size: &Sized, drawn: &[Vec<f64>], verdicts: &[Verdict], worn: usi
     let level = |(number, level): (usize, &bench::Level)| {
         let eases: Vec<f64> = drawn.iter().map(|eases| eases[number]).collect();
         let sits = |wanted: Sitting| {
-            let is = |ease: &&f64| level.band_m.is_some_and(|band| chance::sitting(**ease, band) == wanted);
+            let is = |ease: &&f64| level.band.is_some_and(|band| chance::sitting(**ease, &band) == wanted);
             share(eases.iter().filter(is).count())
         };
         LevelChance {
             level: level.name.clone(),
-            target_mm: level.band_m.map(|band| band.map(mm)),
+            target_mm: level.band.map(|band| band.ends_m.map(mm)),
             ease_mm: chance::interval(&eases).map(mm),
             tight: sits(Sitting::Tight),
             loose: sits(Sitting::Loose),

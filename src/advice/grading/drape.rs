@@ -4,6 +4,7 @@ use crate::alteration;
 use crate::grading::knobs::Band;
 use crate::grading::{Crowd, DrapedAgain, Judged, people};
 use engine::Outcome;
+use fit::target::band_words;
 use geom::units::mm;
 use spec::{JobSpec, bodies};
 use store::Result;
@@ -45,11 +46,11 @@ fn against(outcome: &Outcome, eases: &[(String, f64)], bands: &[Band]) -> Vec<St
     }
     for band in bands {
         let Some((_, ease_m)) = eases.iter().find(|(level, _)| *level == band.level) else { continue };
-        let [least, most] = band.band_m;
+        let [least, most] = band.decides.ends_m;
         if !(least - SLACK_M..=most + SLACK_M).contains(ease_m) {
-            let [ease, least, most] = [*ease_m, least, most].map(mm);
+            let (ease_mm, meant) = (mm(*ease_m), band_words([least, most].map(mm)));
             let level = band.level.replace('_', " ");
-            against.push(format!("{level} {ease:+.0} mm, meant {least:.0} to {most:.0}"));
+            against.push(format!("{level} {ease_mm:+.0} mm, meant {meant}"));
         }
     }
     against

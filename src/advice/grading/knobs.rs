@@ -6,6 +6,7 @@ use crate::grading::people::{self, Figure};
 use crate::grading::shares::{self, GIRTH_M, RATIO};
 use body::Sex;
 use fit::coverage::{Asked, Asks, Bound};
+use fit::target;
 use pattern::grade::{Growth, GrowthError};
 use pattern::{Handle, Style};
 use store::{InOrigin, Origin, Result};
@@ -48,6 +49,8 @@ pub struct Band {
     pub level: String,
     /// Least and greatest ease, m.
     pub band_m: [f64; 2],
+    /// Ease that decides whether a size fits: there is no greatest where the garment hangs free.
+    pub decides: target::Band,
 }
 
 /// A girth that leads, with what grows with it.

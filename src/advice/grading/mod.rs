@@ -398,8 +398,12 @@ fn bands(entry: &GarmentEntry, covered: &[Covered], without: &[String]) -> Resul
         return Err(StudyError::NotFound { what: "level", name: other.clone(), known });
     }
     let is_top = ["chest", "bust"].into_iter().any(is_covered);
-    let band = |level: &String| entry.target.band_m(level, is_top).map(|band_m| Band { level: level.clone(), band_m });
-    let asked = covered.iter().map(|known| &known.level).filter(|level| !without.contains(level));
+    let band = |known: &Covered| {
+        let band_m = entry.target.meant_m(&known.level, is_top)?;
+        let decides = entry.target.band(&known.level, is_top, known.is_held)?;
+        Some(Band { level: known.level.clone(), band_m, decides })
+    };
+    let asked = covered.iter().filter(|known| !without.contains(&known.level));
     let mut bands: Vec<Band> = asked.filter_map(band).collect();
     bands.sort_by_key(|band| tally::order(&band.level));
     if bands.is_empty() { Err(AdviceError::NoTarget { garment: entry.name.clone() }.into()) } else { Ok(bands) }

@@ -34,6 +34,8 @@ pub struct Covered {
     pub level: String,
     /// True if the body is measured at another height than that of its own level.
     pub has_own_height: bool,
+    /// True if the cut holds the garment to the body there.
+    pub is_held: bool,
 }
 
 impl Figure {
@@ -61,7 +63,11 @@ impl Figure {
     /// Levels that a style covers, from the neck down.
     pub fn covered(&self, style: &Style) -> Vec<Covered> {
         let found = ease::lengths(style, &self.stand).into_iter();
-        let covered = found.map(|length| Covered { has_own_height: length.height_m.is_some(), level: length.level });
+        let covered = found.map(|length| Covered {
+            has_own_height: length.height_m.is_some(),
+            is_held: length.is_held,
+            level: length.level,
+        });
         covered.filter(|known| known.has_own_height || self.girth_m(&known.level).is_some()).collect()
     }
 

@@ -5,11 +5,10 @@ use crate::grading::people::{self, Figure};
 use crate::grading::{LevelShare, PartShare, Range, SizeSet, SizeShare};
 use crate::population::DIMENSIONS;
 use body::Dimension;
+use fit::target;
 use geom::units::mm;
 use pattern::Style;
 
-/// Weight of an ease that is too tight, relative to one that is too loose, as in `v_fit`.
-const TIGHT: f64 = 2.0;
 /// Departure that counts for a level which the base covers and the size does not, m: more than any ease departs.
 const UNCOVERED_M: f64 = 1.0;
 /// Number of parts into which the people are divided.
@@ -50,7 +49,7 @@ impl Tally {
         let weights = |style: &Style| -> Vec<Vec<f64>> {
             let eases = people::eases(style, figures, &levels);
             let weights = |(eases, asked): (&Vec<Option<f64>>, &Vec<Option<f64>>)| -> Vec<f64> {
-                (0..bands.len()).map(|level| weight(eases[level], asked[level], bands[level].band_m)).collect()
+                (0..bands.len()).map(|level| weight(eases[level], asked[level], &bands[level].decides)).collect()
             };
             eases.iter().zip(&asked).map(weights).collect()
         };
@@ -128,13 +127,13 @@ impl Tally {
     }
 }
 
-/// Weighted departure of an ease from its band, m. `asked` is the ease on the base; without it the level does not
+/// Weighted departure of an ease from what is meant, m. `asked` is the ease on the base; without it the level does not
 /// count.
-fn weight(ease_m: Option<f64>, asked: Option<f64>, [least, most]: [f64; 2]) -> f64 {
+fn weight(ease_m: Option<f64>, asked: Option<f64>, meant: &target::Band) -> f64 {
     match (ease_m, asked) {
         (_, None) => 0.0,
         (None, Some(_)) => UNCOVERED_M,
-        (Some(ease_m), Some(_)) => (TIGHT * (least - ease_m)).max(ease_m - most).max(0.0),
+        (Some(ease_m), Some(_)) => meant.weight_m(ease_m),
     }
 }
 
@@ -165,7 +164,7 @@ fn ranges(figures: &[Figure], wearers: &[usize]) -> Vec<Range> {
 pub fn levels(bands: &[Band], sets: [&Tally; 2]) -> Vec<LevelShare> {
     let level = |(number, band): (usize, &Band)| LevelShare {
         level: band.level.clone(),
-        target_mm: band.band_m.map(mm),
+        target_mm: band.decides.ends_m.map(mm),
         within_percent: sets.map(|set| set.within_percent(number)),
         fails_percent: sets.map(|set| set.fails_percent(number)),
     };
@@ -196,7 +195,7 @@ mod tests {
     #[test]
     fn an_ease_counts_by_how_far_it_is_off_and_double_where_it_is_tight() {
         let check = |ease_m, asked, expect: f64| {
-            let found = weight(ease_m, asked, [0.04, 0.12]);
+            let found = weight(ease_m, asked, &target::Band { ends_m: [0.04, 0.12], must_close: false });
             assert!((found - expect).abs() < 1e-12, "{ease_m:?} {asked:?}: {found}");
         };
         check(Some(0.04), Some(0.0), 0.0);

@@ -8,7 +8,7 @@ use store::sql;
 fn worn(spec: &JobSpec, _monitor: &mut dyn Monitor) -> Result<Outcome> {
     let eases_mm: &[(&str, f64)] = match spec.size.as_str() {
         "s" => &[("chest", 80.0), ("hip", 10.0), ("neck", 5.0), ("wrist", -30.0)],
-        _ => &[("chest", 150.0), ("hip", 70.0), ("neck", 15.0), ("wrist", 30.0)],
+        _ => &[("chest", 150.0), ("hip", 70.0), ("neck", 15.0), ("wrist", 130.0)],
     };
     let ease = |(level, mm): &(&str, f64)| Ease {
         level: (*level).to_owned(),
@@ -16,6 +16,7 @@ fn worn(spec: &JobSpec, _monitor: &mut dyn Monitor) -> Result<Outcome> {
         body_girth_m: 0.9,
         class: FitClass::Just,
         borderline: false,
+        is_held: *level != "wrist",
     };
     let length_m = if spec.size == "s" { 0.50 } else { 0.53 };
     let point =
@@ -70,6 +71,9 @@ fn the_size_to_wear_is_the_one_whose_worst_level_is_nearest_to_its_target() {
     };
     let off = "SELECT size, level, round(off_mm), verdict FROM v_fit WHERE subject = 'v' AND off_mm <> 0 ORDER BY 1, 2";
     assert_eq!(ask(off), ["m chest 30 loose", "s hip -30 tight", "s wrist -50 tight"]);
+    // The sleeve hangs free: its wrist has no greatest ease.
+    let free = "SELECT level, least_mm FROM v_fit WHERE subject = 'v' AND size = 'm' AND most_mm IS NULL AND least_mm IS NOT NULL";
+    assert_eq!(ask(free), ["wrist 20"]);
     let places = "SELECT size, worst_level, round(worst_off_mm), place FROM v_size WHERE subject = 'v' ORDER BY place";
     assert_eq!(ask(places), ["m chest 30 1", "s wrist -50 2"]);
     // Neither a wrist nor a neck decides the class.

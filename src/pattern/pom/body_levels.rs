@@ -39,6 +39,9 @@ pub struct WornLength {
     /// Height above the floor of the girth on the body, m. `None` for the height of the level. The upper edge of
     /// trousers may lie elsewhere than the waist.
     pub height_m: Option<f64>,
+    /// True if the cut holds the garment to the body there. False where it hangs free from above, as below the chest of
+    /// a straight shirt, or is as wide as a limb needs, as at the knee.
+    pub is_held: bool,
     /// Path on the cloth. For a girth, it may be that of half the girth.
     pub path: Vec<PathPart>,
 }
@@ -47,6 +50,16 @@ pub struct WornLength {
 const SHORT_OF_WRIST_M: f64 = 0.040;
 /// Greatest distance from the waist of a seam that counts as the garment's waist, m.
 const AT_WAIST_M: f64 = 0.060;
+/// Share of the wider girth by which a cut that follows the body narrows towards its waist: half of what the body does.
+/// Its waist is 12 (men) to 18 % (women) less than its chest, and 25 % less than a woman's hip [en13402].
+const TAKEN_IN: f64 = 0.08;
+/// Distance below its upper edge at which the girth of a skirt is taken, m: below waistband and folded edge.
+const BELOW_TOP_M: f64 = 0.020;
+/// Distance below the hip over which the flare of a skirt is taken, m.
+const BELOW_HIP_M: f64 = 0.150;
+/// Growth of a girth above the hip, as a multiple of that below it, from which a skirt is shaped to the hip. In a cone,
+/// such as a circle skirt, it grows alike above and below.
+const BENT: f64 = 1.5;
 
 impl Style {
     /// Girths and widths of the style at the levels of a body that it covers, from the neck down.
@@ -84,42 +97,60 @@ fn lengths_on(
         let found = points.iter().find(|measure: &&PointOfMeasure| measure.point == point)?;
         Some(OnCloth { length_m: found.length_m, path: found.path.clone() })
     };
-    let mut found = Vec::new();
-    let mut add = |level, length: Option<OnCloth>, height_m| {
-        found.extend(length.map(|OnCloth { length_m, path }| WornLength { level, length_m, height_m, path }));
+    let mut found: Vec<WornLength> = Vec::new();
+    let mut add = |level, is_held, length: Option<OnCloth>, height_m| {
+        found.extend(length.map(|OnCloth { length_m, path }| WornLength { level, length_m, height_m, is_held, path }));
     };
     let doubled = |half: OnCloth| OnCloth { length_m: 2.0 * half.length_m, ..half };
     let measured = |path: Vec<PathPart>| OnCloth { length_m: style.path_length_m(&path), path };
-    add("neck", flat(Point::Neck), None);
+    add("neck", true, flat(Point::Neck), None);
     // Without sleeves, the width of the shoulders is free to the designer.
-    add("across_shoulder", flat(Point::AcrossShoulder).filter(|_| sleeve.is_some()), None);
-    add("chest", flat(Point::HalfChest).map(doubled), None);
+    add("across_shoulder", true, flat(Point::AcrossShoulder).filter(|_| sleeve.is_some()), None);
+    let chest = flat(Point::HalfChest).map(doubled);
+    let chest_m = chest.as_ref().map(|chest| chest.length_m);
+    add("chest", true, chest, None);
     let hangs = Hangs::of(anatomy, trunk.as_ref(), legs.as_ref(), stand);
     let girth_at = |height_m: f64| hangs.as_ref().and_then(|hangs| hangs.round(anatomy, height_m)).map(measured);
-    add("underbust", girth_at(stand.underbust_m), None);
-    match (trunk, legs) {
-        (Some(trunk), _) => {
-            let seam = trunk.waist_below_neck_m().map(|m| stand.side_neck_m - m);
-            let is_seam = seam.is_some_and(|height_m| (height_m - stand.waist_m).abs() < AT_WAIST_M);
-            add("waist", if is_seam { flat(Point::HalfWaist).map(doubled) } else { girth_at(stand.waist_m) }, None);
-        }
-        (None, Some(legs)) => {
-            let top_m = stand.crotch_m + legs.top_above_fork_m();
-            add("waist", flat(Point::HalfWaist).map(doubled), Some(top_m));
-        }
-        (None, None) => add("waist", flat(Point::HalfWaist).map(doubled), None),
-    }
-    add("hip", girth_at(stand.hip_m), None);
-    add("thigh", flat(Point::HalfThigh).map(doubled), None);
+    let girth_m_at = |height_m: f64| girth_at(height_m).map(|girth| girth.length_m);
+    let seam = trunk.as_ref().and_then(Trunk::waist_below_neck_m).map(|m| stand.side_neck_m - m);
+    let has_seam_at = |height_m: f64| seam.is_some_and(|seam_m| (seam_m - height_m).abs() < AT_WAIST_M);
+    add("underbust", has_seam_at(stand.underbust_m), girth_at(stand.underbust_m), None);
+    let is_seam = has_seam_at(stand.waist_m);
+    let waist = if trunk.is_none() || is_seam { flat(Point::HalfWaist).map(doubled) } else { girth_at(stand.waist_m) };
+    let waist_m = waist.as_ref().map(|waist| waist.length_m);
+    let is_waist_held = trunk.is_none() || is_seam || is_taken_in(chest_m, waist_m);
+    let top_m = legs.as_ref().filter(|_| trunk.is_none()).map(|legs| stand.crotch_m + legs.top_above_fork_m());
+    add("waist", is_waist_held, waist, top_m);
+    let is_hip_held = match (trunk, legs) {
+        (None, Some(_)) => is_taken_in(girth_m_at(stand.hip_m), waist_m),
+        _ => is_waist_held && is_shaped_to_the_hip(girth_m_at, stand),
+    };
+    add("hip", is_hip_held, girth_at(stand.hip_m), None);
+    add("thigh", false, flat(Point::HalfThigh).map(doubled), None);
     let knee = legs.as_ref().and_then(|legs| legs.round(stand.knee_m - stand.crotch_m)).map(measured);
-    add("knee", knee, None);
-    add("upper_arm", flat(Point::HalfBicep).map(doubled), None);
+    add("knee", false, knee, None);
+    add("upper_arm", false, flat(Point::HalfBicep).map(doubled), None);
     if let (Some(sleeve), Some(whole)) = (sleeve, flat(Point::SleeveLength)) {
-        add("forearm", sleeve.round(stand.forearm_along_m).map(measured), None);
+        add("forearm", false, sleeve.round(stand.forearm_along_m).map(measured), None);
         let reaches = whole.length_m > stand.wrist_along_m - SHORT_OF_WRIST_M;
-        add("wrist", flat(Point::HalfCuff).filter(|_| reaches).map(doubled), None);
+        add("wrist", false, flat(Point::HalfCuff).filter(|_| reaches).map(doubled), None);
     }
     found
+}
+
+/// True if a girth narrows to `narrow_m` as a body does.
+fn is_taken_in(wide_m: Option<f64>, narrow_m: Option<f64>) -> bool {
+    wide_m.zip(narrow_m).is_some_and(|(wide, narrow)| narrow <= (1.0 - TAKEN_IN) * wide)
+}
+
+/// True if a skirt widens from the waist to the hip, and less below.
+fn is_shaped_to_the_hip(girth_m_at: impl Fn(f64) -> Option<f64>, stand: &Stand) -> bool {
+    let top_m = stand.waist_m - BELOW_TOP_M;
+    let (top, hip) = (girth_m_at(top_m), girth_m_at(stand.hip_m));
+    let Some((top, hip)) = top.zip(hip).filter(|_| is_taken_in(hip, top)) else { return false };
+    // A skirt that ends sooner has no flare.
+    let below = girth_m_at(stand.hip_m - BELOW_HIP_M).map_or(0.0, |below| (below - hip) / BELOW_HIP_M);
+    (hip - top) / (top_m - stand.hip_m) > BENT * below
 }
 
 /// Path down the front of a garment, and the height at which it begins.

@@ -35,7 +35,11 @@ pub fn chance_chart(title: &str, rows: &[Probable]) -> Result<Chart, ReportError
     let (sizes, levels) = (names(rows, |row| &row.size), names(rows, |row| &row.level));
     let height = ROW.max((TYPE + 10) * sizes.len() as i32 + 14);
     let ends = rows.iter().flat_map(|row| row.ease_m.into_iter().chain(row.target_m.into_iter().flatten()));
-    let (low, high) = ends.map(mm).fold((0.0_f64, 0.0_f64), |(low, high), end| (low.min(end), high.max(end)));
+    // A band without an upper end reaches to the end of the axis.
+    let (low, high) = ends
+        .map(mm)
+        .filter(|end| end.is_finite())
+        .fold((0.0_f64, 0.0_f64), |(low, high), end| (low.min(end), high.max(end)));
     let margin = 0.04 * (high - low).max(1.0);
     let axis = Axis { low: low - margin, high: high + margin, left: LEFT, right: WIDTH - SHARES };
     let bottom = TOP + height * levels.len() as i32;
@@ -51,7 +55,7 @@ pub fn chance_chart(title: &str, rows: &[Probable]) -> Result<Chart, ReportError
             canvas.text((LEFT - 24, top + height / 2), level, theme::INK, Align::Right, false)?;
             let target = rows.iter().find(|row| row.level == *level).and_then(|row| row.target_m);
             if let Some([least, most]) = target.map(|band| band.map(mm)) {
-                canvas.bar((axis.at(least), top + 6), (axis.at(most), top + height - 6), theme::GRID)?;
+                canvas.bar((axis.at(least), top + 6), (axis.at(most.min(axis.high)), top + height - 6), theme::GRID)?;
             }
         }
         axis.grid(canvas, TOP, bottom)?;

@@ -285,6 +285,8 @@ pub(super) fn ease_matrices(store: &Store, study: &str) -> Result<Vec<EaseMatrix
                 body_girth_m: row.body_girth_m,
                 class: row.fit.class,
                 borderline: row.fit.borderline,
+                // The level that decides the class holds the garment.
+                is_held: true,
             })
         };
         let row = |size: &String| grid.subjects.iter().map(|subject| cell(size, subject)).collect();

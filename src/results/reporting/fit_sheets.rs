@@ -3,6 +3,7 @@
 use crate::assessment::{GarmentWorn, SizeWorn};
 use crate::cross_section::{self, CutAt};
 use crate::fit_card::{FitCard, LevelSits, Sits, SizeSits};
+use fit::target::band_words;
 use geom::units::signed_tenths;
 use pattern::pom::Point;
 use report::data::{Fact, FitCell, FitRow, FitSheet, FitSize, FitTable, FitVerdict};
@@ -88,7 +89,7 @@ fn ease(card: &FitCard, sizes: &[SizeSits], names: &[String]) -> FitTable {
         let known = all.iter().flatten().next();
         let target = known.and_then(|level| level.target_mm);
         let body = known.map_or(String::new(), |level| format!("{:.0}", level.body_girth_mm));
-        let target = target.map_or(String::new(), |[least, most]| format!("{} to {}", whole(least), whole(most)));
+        let target = target.map_or(String::new(), band_words);
         let cell = |level: &Option<LevelSits>| {
             level.as_ref().map_or_else(FitCell::default, |level| FitCell {
                 text: signed(level.ease_mm),

@@ -93,7 +93,7 @@ fn published_eases(store: &Store) -> Result<BTreeMap<[String; 3], Ease>> {
         let (pattern_girth_m, body_girth_m) = (mm_value(&row[4]), mm_value(&row[5]));
         let ease_m = pattern_girth_m - body_girth_m;
         let (class, borderline) = (Cuts::default().classify(ease_m), Cuts::default().is_borderline(ease_m));
-        let ease = Ease { level: row[3].to_string(), pattern_girth_m, body_girth_m, class, borderline };
+        let ease = Ease { level: row[3].to_string(), pattern_girth_m, body_girth_m, class, borderline, is_held: true };
         eases.insert([0, 1, 2].map(|k: usize| row[k].to_string()), ease);
     }
     Ok(eases)

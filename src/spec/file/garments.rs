@@ -12,6 +12,7 @@ use crate::file::{GarmentEntry, KnownSize, KnownStyle, Placed, Sewn, SizeFile, S
 use crate::parameters::Parameters;
 use crate::patterns::{Nest, Unit, unit_of};
 use crate::schedule::Limits;
+use fit::target::is_rigid;
 use geom::units::from_mm;
 use pattern::size_order;
 use sim::Fabric;
@@ -90,13 +91,14 @@ pub(super) fn garments(
             // The value was accepted when it was read.
             let _ = parameters.set(name, value.clone());
         }
-        let target = target::target(reader, &place);
+        let mut target = target::target(reader, &place);
         let fabric = reader.need_text(&place, "fabric", "the name of a fabric");
         let fabric = fabric.and_then(|name| lookup(reader, common.fabrics, &name, "fabric").cloned());
         if let (Some(name), Some(fabric)) = (name, fabric) {
             let name = (*name.get_ref()).to_owned();
             let style = style.map_or_else(|| name.clone(), |style| style.into_inner().to_owned());
             let swept = vec![];
+            target.is_rigid = is_rigid(fabric.membrane_weft_n_m);
             garments.push(GarmentEntry {
                 name,
                 subjects,

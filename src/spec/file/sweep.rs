@@ -14,6 +14,7 @@ use crate::file::GarmentEntry;
 use crate::file::reader::{Place, Reader};
 use crate::file::values::lookup;
 use crate::parameters::Parameters;
+use fit::target::is_rigid;
 use geom::units::from_mm;
 use sim::Fabric;
 
@@ -129,6 +130,7 @@ fn apply(variant: &mut GarmentEntry, setting: &Setting, short: &str, text: &str)
             let _ = variant.parameters.set(name, value.clone());
         }
     }
+    variant.target.is_rigid = is_rigid(variant.fabric.membrane_weft_n_m);
 }
 
 /// Reads the lists of values of a sweep, by the names of their quantities.

@@ -42,6 +42,8 @@ fn sits(level: usize, size: usize) -> LevelSits {
         ease_mm,
         target_mm,
         off_mm,
+        weight_mm: off_mm.map(|off_mm| if off_mm < 0.0 { -2.0 * off_mm } else { off_mm }),
+        cannot_close: false,
         covered_deg: None,
     }
 }

@@ -183,7 +183,8 @@ pub fn card_table(state: &State) -> Option<String> {
         let eases = of_sizes.iter().map(|sits| {
             format!("{}\t{}", number(sits.map(|sits| sits.ease_mm)), number(sits.and_then(|sits| sits.off_mm)))
         });
-        let [least, most] = [0, 1].map(|k| number(known.target_mm.map(|target| target[k])));
+        let [least, most] =
+            [0, 1].map(|k| number(known.target_mm.map(|target| target[k]).filter(|end| end.is_finite())));
         let eases = eases.collect::<Vec<_>>().join("\t");
         table += &format!("{level}\t{:.1}\t{least}\t{most}\t{eases}\n", known.body_girth_mm);
     }

@@ -203,10 +203,14 @@ fn row(theme: Theme, columns: &Columns<'_>, level: &str, selection: Style) -> Li
     Line::from(spans)
 }
 
-/// Target ease, from where to where; in ASCII with two dots, since one would be a decimal point.
+/// Target ease, from where to where; in ASCII with two dots, since one would be a decimal point. Nothing follows them
+/// where the garment hangs free.
 pub fn target(theme: Theme, target_mm: Option<[f64; 2]>) -> String {
     let to = if theme.ascii { ".." } else { "…" };
-    target_mm.map_or("—".to_owned(), |[least, most]| format!("{}{to}{}", whole(least), whole(most)))
+    target_mm.map_or("—".to_owned(), |[least, most]| {
+        let most = if most.is_finite() { whole(most) } else { String::new() };
+        format!("{}{to}{most}", whole(least))
+    })
 }
 
 /// Ease, sign and words of a size at a level.
