@@ -143,8 +143,8 @@ pub fn ease(context: &Context, arguments: &StudyPath) -> Outcome {
 }
 
 /// Message where a garment has no level.
-pub const NO_EASE: &str =
-    "no ease is known: no piece has a role by which levels are found, and the seam file names none ([fit.*])";
+pub const NO_EASE: &str = "no ease is known: the roles of the pieces show no girth; `toile pattern seam role` sets a role, and a seam file \
+     may name the line of a level ([fit.chest], docs/reference.md)";
 
 #[cfg(test)]
 mod tests {

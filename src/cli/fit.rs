@@ -14,13 +14,16 @@ pub fn fit(context: &Context, arguments: &Fit) -> Outcome {
     let cards = fit_card::fit_cards(&store, &study, arguments.garment.as_deref(), arguments.subject.as_deref())?;
     if context.json {
         output::json(&cards)?;
-        return Ok(if cards.is_empty() { End::CheckFailed } else { End::Done });
+        let is_known = !cards.is_empty() && !cards.iter().any(FitCard::is_unknown);
+        return Ok(if is_known { End::Done } else { End::CheckFailed });
     }
     for (number, card) in cards.iter().enumerate() {
         let gap = if number == 0 { "" } else { "\n" };
         let intended = card.intended.as_deref().map_or(String::new(), |fit| format!(" ({fit} fit)"));
         output::text(&format!("{gap}{} on {}{intended}: {}\n", card.garment, card.subject, card.verdict()))?;
-        context.print(&table(card))?;
+        if !card.is_unknown() {
+            context.print(&table(card))?;
+        }
     }
     if cards.iter().any(|card| card.beside().iter().flat_map(|size| &size.levels).any(|level| level.ease_mm < 0.0)) {
         output::text("! smaller than the body\n")?;
@@ -30,7 +33,7 @@ pub fn fit(context: &Context, arguments: &Fit) -> Outcome {
     if !told.is_empty() {
         output::text(&format!("~ not covered all round by the drape, and so not judged: {}\n", told.join("; ")))?;
     }
-    if cards.is_empty() {
+    if cards.iter().any(FitCard::is_unknown) || cards.is_empty() {
         context.say(NO_EASE);
         return Ok(End::CheckFailed);
     }

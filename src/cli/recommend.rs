@@ -2,24 +2,26 @@
 
 use std::fmt::Write as _;
 
+use super::answers::NO_EASE;
 use super::args::Recommend;
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
 use fit::{Analysis, Answer, Estimate, Simulator, Without};
-use store::{PUBLISHED, Store, Table, Value, evidence};
+use store::{PUBLISHED, Store, Table, Value, evidence, read};
 
 /// Runs `toile recommend`: prints the simulator to use for each garment and fit class.
 pub fn recommend(context: &Context, arguments: &Recommend) -> Outcome {
-    let mut store = context.store()?;
-    let name = context.study_name(&store, &arguments.study)?;
+    let (mut store, name) = context.eased(&arguments.study)?;
     if name != PUBLISHED {
         evidence::update_evidence(&mut store, &name)?;
     }
     let evidence = evidence::evidence(&store, &name)?;
     let is_asked = |garment: &str| arguments.garment.as_deref().is_none_or(|asked| asked == garment);
     let answers: Vec<&Answer> = evidence.answers.iter().filter(|answer| is_asked(&answer.garment)).collect();
-    if answers.is_empty() {
-        context.say(format_args!("study {name} has no fit classes yet; `toile ease` or `toile run` finds them"));
+    if answers.is_empty() && read::ease(&store, &name)?.is_empty() {
+        context.say(NO_EASE);
+    } else if answers.is_empty() {
+        context.say(format_args!("study {name} has no drapes yet; `toile run {}` makes them", arguments.study.display()));
     }
     context.print(&table(&answers, arguments.explain || context.json, context.json))?;
     if arguments.explain && !context.json {

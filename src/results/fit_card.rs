@@ -140,6 +140,7 @@ impl SizeSits {
         let worst = self.worst().filter(|level| level.sits().is_some_and(|sits| sits != Sits::AsMeant));
         let told = worst.map(|level| format!("{} {}", level.level.replace('_', " "), level.words()));
         match (told, self.lacks_hip()) {
+            (None, _) if self.levels.is_empty() => NO_GIRTH.to_owned(),
             (told, false) => told.unwrap_or_else(|| "every level as meant".to_owned()),
             (None, true) => "every known level as meant; hip not known".to_owned(),
             (Some(told), true) => format!("{told}; hip not known"),
@@ -188,6 +189,12 @@ impl FitCard {
         }
     }
 
+    /// True if no girth of any size is known.
+    #[must_use]
+    pub fn is_unknown(&self) -> bool {
+        self.sizes.iter().all(|size| size.levels.is_empty())
+    }
+
     /// Size to wear; `None` where no level has a target.
     #[must_use]
     pub fn to_wear(&self) -> Option<&SizeSits> {
@@ -225,7 +232,8 @@ impl FitCard {
             true => format!("wear {}: {}", size.size, size.words()),
             false => format!("{NONE_FITS}; nearest is {}: {}", size.size, size.words()),
         };
-        self.to_wear().map_or("no level has a target".to_owned(), told)
+        let none = if self.is_unknown() { NO_GIRTH } else { "no level has a target" };
+        self.to_wear().map_or_else(|| none.to_owned(), told)
     }
 
     /// Reasons for the size to wear: its worst level, and the worst level of each neighbour.
@@ -241,6 +249,8 @@ impl FitCard {
     }
 }
 
+/// Verdict on a garment whose pieces show no girth.
+const NO_GIRTH: &str = "not known, no girth of its pattern was found";
 /// Words for a card on which no size may be worn.
 const NONE_FITS: &str = "no size fits";
 
@@ -280,19 +290,28 @@ pub fn fit_cards(store: &Store, study: &str, garment: Option<&str>, subject: Opt
     Ok(cards)
 }
 
-/// All fit cards of a study, in its order of garments and subjects.
+/// All fit cards of a study, in its order of garments and subjects. A garment whose girths are not known has a card
+/// without levels once it has jobs.
 fn all_fit_cards(store: &Store, study: &str) -> Result<Vec<FitCard>> {
-    let sql = "SELECT v_fit.garment, v_fit.subject, v_fit.size, place, v_fit.intended, level, pattern_girth_mm, body_girth_mm,
-            ease_mm, least_mm, most_mm, off_mm, worst_level, weight_mm, v_fit.verdict = 'too_small'
-        FROM v_fit LEFT JOIN v_size USING (study, garment, size, subject)
-        WHERE study = :study
+    let sql = "WITH fit AS (
+            SELECT * FROM v_fit WHERE study = :study
+        ), place AS (
+            SELECT * FROM v_size WHERE study = :study
+        ), cell AS (
+            SELECT garment, size, subject FROM fit
+            UNION SELECT garment, size, subject FROM job JOIN study USING (study_id)
+            WHERE study.name = :study AND is_current
+        )
+        SELECT cell.garment, cell.subject, cell.size, place, fit.intended, level, pattern_girth_mm, body_girth_mm,
+            ease_mm, least_mm, most_mm, off_mm, worst_level, fit.weight_mm, fit.verdict = 'too_small'
+        FROM cell LEFT JOIN fit USING (garment, size, subject) LEFT JOIN place USING (garment, size, subject)
         ORDER BY
             (SELECT position FROM study_axis JOIN study USING (study_id)
-                WHERE study.name = :study AND axis = 'garment' AND study_axis.name = v_fit.garment),
+                WHERE study.name = :study AND axis = 'garment' AND study_axis.name = cell.garment),
             (SELECT position FROM study_axis JOIN study USING (study_id)
-                WHERE study.name = :study AND axis = 'subject' AND study_axis.name = v_fit.subject),
+                WHERE study.name = :study AND axis = 'subject' AND study_axis.name = cell.subject),
             (SELECT position FROM study_axis JOIN study USING (study_id)
-                WHERE study.name = :study AND axis = 'size' AND study_axis.name = v_fit.size)";
+                WHERE study.name = :study AND axis = 'size' AND study_axis.name = cell.size)";
     let mut statement = store.reader.prepare_cached(sql)?;
     let rows = statement.query_map(rusqlite::named_params! { ":study": study }, read)?;
     let mut cards: Vec<FitCard> = Vec::new();
@@ -307,7 +326,7 @@ fn all_fit_cards(store: &Store, study: &str) -> Result<Vec<FitCard>> {
             card.sizes.push(SizeSits { size, place, worst_level, levels: Vec::new() });
         }
         if let Some(last) = card.sizes.last_mut() {
-            last.levels.push(level);
+            last.levels.extend(level);
             last.levels.sort_by_key(|level| order(&level.level));
         }
     }
@@ -385,30 +404,36 @@ struct Found {
     size: String,
     place: Option<i64>,
     intended: Option<String>,
-    level: LevelSits,
+    /// `None` for a size whose girths are not known.
+    level: Option<LevelSits>,
     worst_level: Option<String>,
 }
 
 fn read(row: &Row<'_>) -> rusqlite::Result<Found> {
-    let target: [Option<f64>; 2] = [row.get(9)?, row.get(10)?];
+    let level: Option<String> = row.get(5)?;
     Ok(Found {
         garment: row.get(0)?,
         subject: row.get(1)?,
         size: row.get(2)?,
         place: row.get(3)?,
         intended: row.get(4)?,
-        level: LevelSits {
-            level: row.get(5)?,
-            pattern_girth_mm: row.get(6)?,
-            body_girth_mm: row.get(7)?,
-            ease_mm: row.get(8)?,
-            target_mm: target[0].map(|least| [least, target[1].unwrap_or(f64::INFINITY)]),
-            off_mm: row.get(11)?,
-            weight_mm: row.get(13)?,
-            cannot_close: row.get::<_, Option<bool>>(14)?.unwrap_or(false),
-            covered_deg: None,
-        },
+        level: level.map(|level| sits(row, level)).transpose()?,
         worst_level: row.get(12)?,
+    })
+}
+
+fn sits(row: &Row<'_>, level: String) -> rusqlite::Result<LevelSits> {
+    let target: [Option<f64>; 2] = [row.get(9)?, row.get(10)?];
+    Ok(LevelSits {
+        level,
+        pattern_girth_mm: row.get(6)?,
+        body_girth_mm: row.get(7)?,
+        ease_mm: row.get(8)?,
+        target_mm: target[0].map(|least| [least, target[1].unwrap_or(f64::INFINITY)]),
+        off_mm: row.get(11)?,
+        weight_mm: row.get(13)?,
+        cannot_close: row.get::<_, Option<bool>>(14)?.unwrap_or(false),
+        covered_deg: None,
     })
 }
 
