@@ -35,7 +35,8 @@ impl Share {
 
 /// Shares, of the size charts of W. Aldrich, *Metric Pattern Cutting for Women's Wear* and *for Menswear* (sizes 40 mm
 /// apart): shoulder, neck, armscye depth, top arm, wrist, sleeve length, nape to waist and waist to hip, waist to knee,
-/// inside leg, trouser bottom width. A neck drafted as there is a fifth of its girth wide on either side, and as deep in
+/// inside leg, trouser bottom width. Those of men were set beside the regressions on chest and hip of a survey alone
+/// (docs/experiments/alterations.md). A neck drafted as there is a fifth of its girth wide on either side, and as deep in
 /// front. Thigh and knee are no part of those charts: they keep their ratio to the hip, 0.6 and, as straight legs, that
 /// of the lower edge.
 pub const SHARES: [Share; 15] = [
