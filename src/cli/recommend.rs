@@ -21,7 +21,8 @@ pub fn recommend(context: &Context, arguments: &Recommend) -> Outcome {
     if answers.is_empty() && read::ease(&store, &name)?.is_empty() {
         context.say(NO_EASE);
     } else if answers.is_empty() {
-        context.say(format_args!("study {name} has no drapes yet; `toile run {}` makes them", arguments.study.display()));
+        context
+            .say(format_args!("study {name} has no drapes yet; `toile run {}` makes them", arguments.study.display()));
     }
     context.print(&table(&answers, arguments.explain || context.json, context.json))?;
     if arguments.explain && !context.json {

@@ -201,6 +201,9 @@ fn strip(run: &TryOn) -> Result<Strip, ReportError> {
     })
 }
 
+/// Least number of runs whose spread is drawn. A standard deviation of two is their distance.
+const SPREAD_OF: usize = 3;
+
 fn series(title: &str, runs: &[&TryOn]) -> Result<Vec<Series>, ReportError> {
     let mut all = Vec::new();
     for (name, members) in by_series(runs) {
@@ -209,7 +212,7 @@ fn series(title: &str, runs: &[&TryOn]) -> Result<Vec<Series>, ReportError> {
         let subjects: Vec<String> = members.iter().map(|r| wearer(r)).collect();
         all.push(Series {
             chi_chart: chi_chart(&title, &members, &subjects)?,
-            mean_chart: if members.len() > 1 { Some(mean_sd_chart(&title, &members)?) } else { None },
+            mean_chart: if members.len() >= SPREAD_OF { Some(mean_sd_chart(&title, &members)?) } else { None },
             rows: rows.iter().map(|m| chi_row(m, &members)).collect(),
             summary: summary(&members),
             published: members.iter().flat_map(|r| &r.measured).any(|m| m.published_chi.is_some()),

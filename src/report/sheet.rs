@@ -30,7 +30,7 @@ pub(super) struct FitPage<'a> {
 struct Sheet<'a> {
     id: String,
     sheet: &'a FitSheet,
-    /// Pictures, one column for each size.
+    /// Pictures, one column for each size that has a drape.
     columns: Vec<Column>,
     /// Charts of the cross sections, as SVG.
     sections: Vec<String>,
@@ -91,10 +91,16 @@ impl<'a> Sheet<'a> {
             let beside = run_of(Simulator::Hybrid).filter(|_| sheet.simulator == Some(Simulator::Fem));
             Column::new(size, shown, beside)
         });
+        let columns = columns.collect::<Result<Vec<_>, _>>()?;
+        let (columns, without): (Vec<Column>, Vec<Column>) =
+            columns.into_iter().partition(|column| !column.views.is_empty());
+        let without: Vec<String> = without.into_iter().map(|column| column.size).collect();
         let fabric = runs.first().map_or(String::new(), |run| format!(", {}", run.fabric.replace('_', " ")));
+        let not_draped =
+            if without.is_empty() { String::new() } else { format!("; not draped: {}", without.join(", ")) };
         let source = sheet.simulator.map_or("no drape yet".to_owned(), |simulator| {
             format!(
-                "{} of {}{fabric}",
+                "{} of {}{fabric}{not_draped}",
                 count(runs.iter().filter(|run| run.simulator == simulator).count(), "drape"),
                 simulator_name(simulator)
             )
@@ -102,7 +108,7 @@ impl<'a> Sheet<'a> {
         Ok(Self {
             id: format!("fit-{}", number + 1),
             sheet,
-            columns: columns.collect::<Result<_, _>>()?,
+            columns,
             sections: sheet.sections.iter().map(super::Chart::inline).collect(),
             source,
         })
