@@ -180,6 +180,9 @@ fn summary(runs: &[TryOn]) -> String {
             text += &format!(" {name} is off the pattern by {} on average (mean EI {ei:.3}).", percent(ei));
         }
     }
+    if subjects == 1 {
+        text += " One subject tells nothing of other people.";
+    }
     let error = |m: &super::data::Measured| (m.chi.chi() - 1.0).abs();
     let worst = runs
         .iter()
