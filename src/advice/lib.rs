@@ -3,6 +3,7 @@
 
 mod alteration;
 pub mod chance;
+pub mod comments;
 mod error;
 mod grading;
 pub mod population;

@@ -11,6 +11,7 @@ mod attempt;
 mod body;
 mod catalogue;
 mod chance;
+mod comment;
 mod context;
 mod detached;
 mod fit;
@@ -188,6 +189,7 @@ fn execute(arguments: Arguments, workbench: impl FnOnce(Workbench) -> Result<(),
         Some(Command::Grade(arguments)) => grade::grade(&context, &arguments),
         Some(Command::Chance(arguments)) => chance::chance(&context, &arguments),
         Some(Command::Fit(arguments)) => fit::fit(&context, &arguments),
+        Some(Command::Comment(command)) => comment::comment(&context, &command),
         Some(Command::Section(arguments)) => section::section(&context, &arguments),
         Some(Command::Recommend(arguments)) => recommend::recommend(&context, &arguments),
         Some(Command::Pattern(command)) => pattern::run(&context, &command),

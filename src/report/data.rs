@@ -247,6 +247,31 @@ pub struct FitSheet {
     pub tables: Vec<FitTable>,
     /// Cross sections of all sizes that have a drape.
     pub sections: Vec<Chart>,
+    /// Comments of the rounds of fitting, by number.
+    pub comments: Vec<FitComment>,
+    /// Last round with its sign-off, in words; empty without a round.
+    pub round: String,
+}
+
+/// A comment of a fitting.
+#[derive(Clone, Debug)]
+pub struct FitComment {
+    /// Number of the callout.
+    pub number: i64,
+    /// Side and place, such as `front: hip`.
+    pub seen: String,
+    /// Finding, in words.
+    pub said: String,
+    /// `minor`, `major` or `critical`.
+    pub severity: &'static str,
+    /// Likely cause; empty if not known.
+    pub cause: String,
+    /// Action to take; empty if none is known.
+    pub action: String,
+    /// Name of who is to act; empty if nobody.
+    pub owner: String,
+    /// Round that asked and state, in words.
+    pub state: String,
 }
 
 /// A size of a fit sheet.

@@ -5,6 +5,7 @@
 
 pub mod cache;
 pub mod columns;
+pub mod comments;
 mod connection;
 mod database;
 mod error;

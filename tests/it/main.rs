@@ -9,6 +9,7 @@ mod blocks;
 mod chance;
 mod claims;
 mod cli;
+mod comments;
 mod documents;
 mod doors;
 mod durability;

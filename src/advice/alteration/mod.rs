@@ -19,7 +19,9 @@ use serde::Serialize;
 use crate::alteration::bench::Bench;
 pub use crate::alteration::figure::ForFigure;
 use crate::alteration::fitting_room::FittingRoom;
+pub(crate) use crate::alteration::readings::{Reading, Readings};
 pub use crate::alteration::signs::SignRead;
+pub(crate) use crate::alteration::signs::read as signs;
 use crate::alteration::tried::Tried;
 use body::Body;
 use engine::{Outcome, stages};
@@ -309,7 +311,7 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
         readings: found.readings(wish),
         drapes: found.drapes,
         remarks: bench.left_out.iter().chain(&found.remarks).chain(&reasons).chain(&written.remarks).cloned().collect(),
-        signs: found.after.as_ref().map_or_else(Vec::new, |(_, read)| signs::read(read, &style.handles())),
+        signs: found.after.as_ref().map_or_else(Vec::new, |(_, read)| signs(read, &style.handles())),
         drape: found.after.map(|(redraped, _)| redraped),
         keeps_source: written.keeps_source,
         files: written.files,
@@ -350,7 +352,7 @@ pub fn standing(study: &Study, wish: &Wish) -> Result<Vec<Standing>> {
     let (_, readings) = FittingRoom::new(&spec, &body)?.drape(&style)?;
     let eases = bench.levels(&style, &style).into_iter();
     let ease = |level: AlteredLevel| Standing { name: level.level, unit: "mm", value: level.before_mm, is_ease: true };
-    let read = |(name, reading): (String, readings::Reading)| Standing {
+    let read = |(name, reading): (String, Reading)| Standing {
         name,
         unit: reading.unit,
         value: reading.value,

@@ -87,6 +87,8 @@ pub struct SignRead {
     pub value: f64,
     /// Unit of the reading.
     pub unit: &'static str,
+    /// Magnitude of the reading beyond which it is a sign.
+    pub beyond: f64,
     /// Likely cause.
     pub cause: &'static str,
     /// Handles of the style for it.
@@ -104,6 +106,7 @@ pub fn read(readings: &Readings, known: &[Handle]) -> Vec<SignRead> {
             reading: sign.reading,
             value: reading.value,
             unit: reading.unit,
+            beyond: sign.beyond.abs(),
             cause: sign.cause,
             handles: own.collect(),
         })

@@ -12,6 +12,7 @@ mod alter;
 mod attempt;
 mod body;
 mod catalogue;
+mod comment;
 mod cut;
 mod fit;
 mod grade;
@@ -27,6 +28,7 @@ pub use alter::Alter;
 pub use attempt::{AuditGarments, Try};
 pub use body::{Body, BodyBuild, BodyFile, MeshUnit, Sex};
 pub use catalogue::{Catalogue, FabricValues, PersonValues, SizeValues, StyleCommand, StyleValues, SubjectValues};
+pub use comment::{Comment, Fittings};
 pub use cut::{CutFiles, PatternUnit};
 pub use fit::{Chance, Fit, Section};
 pub use grade::Grade;
@@ -110,6 +112,9 @@ pub enum Command {
     Grade(Grade),
     /// The air between body and cloth at a level, all sizes over each other.
     Section(Section),
+    /// Comments of fittings, in rounds: what was measured, what is to be done, what is met.
+    #[command(subcommand)]
+    Comment(Comment),
     /// Which simulator to use for which fit.
     Recommend(Recommend),
     /// Sewing patterns: inspect, check, draft, mesh, draw.

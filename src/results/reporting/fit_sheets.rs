@@ -6,15 +6,21 @@ use crate::fit_card::{FitCard, LevelSits, Sits, SizeSits};
 use fit::target::band_words;
 use geom::units::signed_tenths;
 use pattern::pom::Point;
-use report::data::{Fact, FitCell, FitRow, FitSheet, FitSize, FitTable, FitVerdict};
+use report::data::{Fact, FitCell, FitComment, FitRow, FitSheet, FitSize, FitTable, FitVerdict};
+use store::comments::{self, Comment, State};
 use store::{Result, Store};
 
 /// Fit sheets of a study.
-pub(super) fn sheets(store: &Store, worn: &[GarmentWorn]) -> Result<Vec<FitSheet>> {
-    worn.iter().map(|worn| sheet(store, worn)).collect()
+pub(super) fn sheets(store: &Store, study: &str, worn: &[GarmentWorn]) -> Result<Vec<FitSheet>> {
+    let comments = comments::comments(store, study)?;
+    let own = |worn: &GarmentWorn| -> Vec<&Comment> {
+        let card = &worn.card;
+        comments.iter().filter(|one| one.garment == card.garment && one.subject == card.subject).collect()
+    };
+    worn.iter().map(|worn| sheet(store, worn, &own(worn))).collect()
 }
 
-fn sheet(store: &Store, worn: &GarmentWorn) -> Result<FitSheet> {
+fn sheet(store: &Store, worn: &GarmentWorn, comments: &[&Comment]) -> Result<FitSheet> {
     let card = &worn.card;
     let beside = card.beside();
     let drape_of = |name: &str| worn.sizes.iter().find(|size| size.size == name);
@@ -44,7 +50,37 @@ fn sheet(store: &Store, worn: &GarmentWorn) -> Result<FitSheet> {
         simulator: worn.simulator,
         tables: tables.into_iter().filter(|table| !table.rows.is_empty()).collect(),
         sections: charts.into_iter().map(|(_, chart)| chart).collect(),
+        comments: comments.iter().copied().map(told_comment).collect(),
+        round: round(comments),
     })
+}
+
+fn told_comment(comment: &Comment) -> FitComment {
+    let remark = &comment.remark;
+    let state = match (comment.status, comment.met_in) {
+        (State::Met, Some(round)) => format!("met in round {round}"),
+        (state, _) => state.as_str().to_owned(),
+    };
+    FitComment {
+        number: comment.number,
+        seen: format!("{}: {}", remark.side.as_str(), remark.place),
+        said: remark.said.clone(),
+        severity: remark.severity.as_str(),
+        cause: remark.cause.clone(),
+        action: remark.action.clone(),
+        owner: comment.owner.clone(),
+        state: format!("round {}, {state}", comment.round),
+    }
+}
+
+/// Last round that asked or met anything, with its sign-off.
+fn round(comments: &[&Comment]) -> String {
+    let last = comments.iter().map(|one| one.round.max(one.met_in.unwrap_or(0))).max();
+    let Some(last) = last else { return String::new() };
+    let open = comments.iter().filter(|one| one.status == State::Open).count();
+    let signed = comments.iter().find(|one| one.round == last).and_then(|one| one.signed_by.as_ref());
+    let signed = signed.map_or_else(|| "not signed".to_owned(), |by| format!("signed by {by}"));
+    format!("Round {last}, {signed}; {open} open of {}.", comments.len())
 }
 
 /// Words on hem and pressure of a drape.

@@ -16,7 +16,7 @@ use spec::patterns;
 use store::{InOrigin, JobFilter, Origin, PUBLISHED, Result, Store, Table, Value, evidence, read, sql};
 
 /// Raw data: view, file, description.
-const RAW: [(&str, &str, &str); 13] = [
+const RAW: [(&str, &str, &str); 14] = [
     ("v_chi", "chi.csv", "L2D, L3D and chi of every measurement at every stage"),
     ("v_gap", "gap.csv", "girths of garment and body where Hybrid-GS does not close"),
     ("v_metrics", "metrics.csv", "E, SD, EI and the state of every drape"),
@@ -28,6 +28,7 @@ const RAW: [(&str, &str, &str); 13] = [
     ("v_balance", "balance.csv", "heights of hem and waist edge, lean of side seams"),
     ("v_fold", "fold.csv", "folds and drag lines"),
     ("v_pressure", "pressure.csv", "pressure by region of the body"),
+    ("v_comment", "comments.csv", "comments of fittings, with the rounds that asked and met them"),
     ("v_drawn", "drawn.csv", "how far hem, cuffs and neckline are drawn as the body moves"),
     ("v_provenance", "provenance.csv", "hashes, versions and machine of every result"),
 ];
@@ -126,7 +127,7 @@ fn report_data(store: &Store, study: &str, files: &mut Vec<(String, Vec<u8>)>) -
         ease: facts::ease_matrices(store, study)?,
         sizes: facts::size_tips(store, study, &bodies)?,
         fit: FitData {
-            sheets: fit_sheets::sheets(store, &worn)?,
+            sheets: fit_sheets::sheets(store, study, &worn)?,
             points: facts::drawings(store, &jobs, patterns::points_sheet)?,
             definitions: fit_sheets::definitions(&worn),
             drapes: drapes::drapes(store, &jobs, &worn)?,
