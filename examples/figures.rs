@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use toile::advice::{Alteration, Wish, alter};
 use toile::engine::run;
+use toile::pattern::Handle;
 use toile::pattern::draft::Model;
 use toile::pattern::dxf::{self, Standard};
 use toile::spec::Study;
@@ -78,7 +79,7 @@ fn main() -> Outcome {
             FIGURES.iter().filter(|(kind, figure, ..)| *kind == worn.kind && (worn.sex == "female" || !women(figure)))
         {
             match proposed(worn, figure, is_draped, &folder) {
-                Ok((planted_mm, found)) => {
+                Ok((planted_mm, before, found)) => {
                     let own = found.moves.iter().find(|one| book.contains(&one.handle));
                     let [least, most] = share.map(|share| share * planted_mm);
                     let is_near = own.is_some_and(|one| {
@@ -92,7 +93,7 @@ fn main() -> Outcome {
                         "| {} | {figure} | {planted_mm:+.0} | {} | {} |",
                         worn.name,
                         book.join(" or "),
-                        told(&found)
+                        told(before.as_ref(), &found)
                     );
                 }
                 Err(error) => println!("| {} | {figure} | | {} | {error} |", worn.name, book.join(" or ")),
@@ -104,22 +105,39 @@ fn main() -> Outcome {
     Ok(())
 }
 
-/// Planted amount of a figure, mm, and the proposal for it.
-fn proposed(worn: &Worn, figure: &str, is_draped: bool, folder: &Path) -> Outcome<(f64, Alteration)> {
+/// Planted amount of a figure, mm, the drape of the pattern as it is, where it is asked for, and the proposal.
+fn proposed(
+    worn: &Worn,
+    figure: &str,
+    is_draped: bool,
+    folder: &Path,
+) -> Outcome<(f64, Option<Alteration>, Alteration)> {
     let study = study_of(worn, figure, folder)?;
     let subject = study.subjects.first().ok_or("no subject")?;
     let planted = subject.person.figures.iter().next().map_or(0.0, |(_, amount_mm)| amount_mm);
     let wish = Wish { is_draped, ..Wish::of("worn", "one", &worn.size) };
-    Ok((planted, alter(&study, &wish)?))
+    let found = alter(&study, &wish)?;
+    let moved = found.moves.first().filter(|_| is_draped).and_then(|moved| Handle::named(moved.handle));
+    let unmoved = moved.map(|handle| Wish { moves_mm: vec![(handle, 0.0)], ..wish });
+    Ok((planted, unmoved.map(|wish| alter(&study, &wish)).transpose()?, found))
 }
 
-fn told(found: &Alteration) -> String {
+/// Signs on a drape, with their readings.
+fn signs(found: &Alteration) -> String {
+    let told: Vec<String> =
+        found.signs.iter().map(|sign| format!("{} {:+.1} {}", sign.sign, sign.value, sign.unit)).collect();
+    if told.is_empty() { "none".to_owned() } else { told.join(", ") }
+}
+
+fn told(before: Option<&Alteration>, found: &Alteration) -> String {
     let moves: Vec<String> = found
         .moves
         .iter()
         .map(|one| format!("{} {:+.1} ({})", one.handle, one.amount_mm, one.serves.join(", ")))
         .collect();
-    let drape = found.drape.as_ref().map_or(String::new(), |drape| format!("; {}", drape.words()));
+    let was =
+        before.map_or(String::new(), |before| format!("; signs before: {}, after: {}", signs(before), signs(found)));
+    let drape = found.drape.as_ref().map_or(String::new(), |drape| format!("; {}{was}", drape.words()));
     format!("{}{drape}", if moves.is_empty() { "nothing".to_owned() } else { moves.join(", ") })
 }
 
