@@ -107,7 +107,7 @@ fn signs(study: &Study, worn: &GarmentWorn, drape: &SizeWorn) -> Result<Vec<Rema
         .collect();
     let jobs = spec::jobs_of(study, &worn.card.garment, &worn.card.subject);
     let Some(job) = jobs.iter().find(|job| job.size == drape.size) else { return Ok(Vec::new()) };
-    let known = stages::style(job)?.handles();
+    let style = stages::style(job)?;
     let remark = |sign: alteration::SignRead| {
         let place = if sign.reading.starts_with("waist") { "waist" } else { "hem" };
         let handles: Vec<String> = sign.handles.iter().map(|handle| handle.replace('_', " ")).collect();
@@ -121,7 +121,7 @@ fn signs(study: &Study, worn: &GarmentWorn, drape: &SizeWorn) -> Result<Vec<Rema
             quantity: Some(sign.sign.to_owned()),
         }
     };
-    Ok(alteration::signs(&readings, &known).into_iter().map(remark).collect())
+    Ok(alteration::signs(&readings, &style).into_iter().map(remark).collect())
 }
 
 /// Drag lines, those of each side together.

@@ -38,11 +38,5 @@ fn what_one_round_asked_is_met_in_the_next_once_the_pattern_is_altered() {
     assert!(signed.contains("round 2 of tee on ii is signed by ann"), "{signed}");
     let told = place
         .sql(&format!("SELECT status, met_in, owner FROM v_comment WHERE number IN ({number}, {own}) ORDER BY number"));
-    assert_eq!(
-        told,
-        serde_json::json!([
-            { "status": "met", "met_in": 2, "owner": "" },
-            { "status": "closed", "met_in": null, "owner": "ann" },
-        ])
-    );
+    assert_eq!(told, ["met,2,", "closed,,ann"]);
 }

@@ -311,7 +311,7 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
         readings: found.readings(wish),
         drapes: found.drapes,
         remarks: bench.left_out.iter().chain(&found.remarks).chain(&reasons).chain(&written.remarks).cloned().collect(),
-        signs: found.after.as_ref().map_or_else(Vec::new, |(_, read)| signs(read, &style.handles())),
+        signs: found.after.as_ref().map_or_else(Vec::new, |(_, read)| signs(read, &style)),
         drape: found.after.map(|(redraped, _)| redraped),
         keeps_source: written.keeps_source,
         files: written.files,

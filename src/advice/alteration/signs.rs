@@ -3,7 +3,8 @@
 use serde::Serialize;
 
 use crate::alteration::readings::Readings;
-use pattern::Handle;
+use geom::units::mm;
+use pattern::{Handle, Style};
 
 /// One side of a reading, beyond which it is a sign.
 struct Sign {
@@ -83,7 +84,7 @@ pub struct SignRead {
     pub sign: &'static str,
     /// Name of the reading.
     pub reading: &'static str,
-    /// Value of the reading.
+    /// Value of the reading, less that which the pattern is drawn with.
     pub value: f64,
     /// Unit of the reading.
     pub unit: &'static str,
@@ -95,16 +96,28 @@ pub struct SignRead {
     pub handles: Vec<&'static str>,
 }
 
-/// Signs on a drape of a style that has the handles `known`.
-pub fn read(readings: &Readings, known: &[Handle]) -> Vec<SignRead> {
+/// Signs on a drape of a style. An edge that is drawn lower behind, as that of trousers, is no sign.
+pub fn read(readings: &Readings, style: &Style) -> Vec<SignRead> {
+    let lines = style.hang_lines();
+    let drawn_mm = |reading: &str| match reading {
+        "hem_front_over_back" => mm(lines.drawn_hem_m),
+        "waist_front_over_back" => mm(lines.drawn_waist_m),
+        _ => 0.0,
+    };
+    beyond(readings, drawn_mm, &style.handles())
+}
+
+/// Signs of readings less what the pattern is drawn with, for a style with the handles `known`.
+fn beyond(readings: &Readings, drawn_mm: impl Fn(&str) -> f64, known: &[Handle]) -> Vec<SignRead> {
     let seen = |sign: &Sign| {
         let reading = readings.get(sign.reading)?;
-        let is_beyond = reading.value * sign.beyond.signum() > sign.beyond.abs();
+        let value = reading.value - drawn_mm(sign.reading);
+        let is_beyond = value * sign.beyond.signum() > sign.beyond.abs();
         let own = sign.handles.iter().filter(|handle| known.contains(handle)).map(|handle| handle.as_str());
         is_beyond.then(|| SignRead {
             sign: sign.words,
             reading: sign.reading,
-            value: reading.value,
+            value,
             unit: reading.unit,
             beyond: sign.beyond.abs(),
             cause: sign.cause,
@@ -124,13 +137,15 @@ mod tests {
         let known = [Handle::FrontLength, Handle::BackLength, Handle::ShoulderSlope];
         let check = |name: &str, value: f64, unit: &'static str, expect: &[(&str, &[&str])]| {
             let readings = Readings::from([(name.to_owned(), Reading { value, unit })]);
-            let found = read(&readings, &known);
+            let found = beyond(&readings, |reading| if reading.starts_with("waist") { -60.0 } else { 0.0 }, &known);
             let found: Vec<(&str, &[&str])> = found.iter().map(|one| (one.sign, one.handles.as_slice())).collect();
             assert_eq!(found, expect, "{name} {value}");
         };
         check("hem_front_over_back", 24.0, "mm", &[("hem rises in front", &["front_length"])]);
         check("hem_front_over_back", -24.0, "mm", &[("hem rises behind", &["back_length"])]);
         check("hem_front_over_back", 19.0, "mm", &[]);
+        check("waist_front_over_back", -79.0, "mm", &[]);
+        check("waist_front_over_back", -81.0, "mm", &[("waist pulled down in front", &[])]);
         check("off_neck_side", 13.0, "mm", &[("shoulder stands off at the neck", &["shoulder_slope"])]);
         check("off_neck_side", -3.0, "mm", &[]);
         check("side_seam_lean_right", -3.5, "deg", &[("side seam swings back", &["back_length"])]);

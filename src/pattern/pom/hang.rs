@@ -15,6 +15,11 @@ pub struct HangLines {
     pub waist: Vec<PathPart>,
     /// Side seams and outseams of both sides, each from its upper end.
     pub side_seams: Vec<Vec<PathPart>>,
+    /// Height of the hem in front above that behind, as the pieces are drawn from the shoulder down, m; 0 where they
+    /// tell nothing.
+    pub drawn_hem_m: f64,
+    /// Height of the upper edge of trousers at centre front above that at centre back, as drawn, m; 0 of others.
+    pub drawn_waist_m: f64,
 }
 
 impl Style {
@@ -35,6 +40,12 @@ impl Style {
             .chain(of_legs)
             .map(|chain| path_along(&chain))
             .collect();
-        HangLines { hem: hem.unwrap_or_default(), waist: waist.unwrap_or_default(), side_seams }
+        let length_m =
+            |point: Point| points.iter().find(|measure| measure.point == point).map(|measure| measure.length_m);
+        let drawn_hem_m =
+            length_m(Point::BackLength).zip(length_m(Point::FrontLength)).map_or(0.0, |(back, front)| back - front);
+        let drawn_waist_m = garb.legs.as_ref().filter(|_| garb.trunk.is_none()).map_or(0.0, Legs::front_over_back_m);
+        let (hem, waist) = (hem.unwrap_or_default(), waist.unwrap_or_default());
+        HangLines { hem, waist, side_seams, drawn_hem_m, drawn_waist_m }
     }
 }

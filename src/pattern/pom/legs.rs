@@ -139,11 +139,21 @@ impl<'a> Legs<'a> {
 
     /// Height of the upper edge above the fork in front, m, with yoke and waistband.
     pub fn top_above_fork_m(&self) -> f64 {
+        self.run_above_fork_m(&self.inner[0])
+    }
+
+    /// Height of the upper edge at centre front above that at centre back, as the pieces are drawn, m.
+    pub fn front_over_back_m(&self) -> f64 {
+        let [front, back] = &self.inner;
+        self.run_above_fork_m(front) - self.run_above_fork_m(back)
+    }
+
+    /// Height of the upper end of an inner side above its fork, m, with yoke and waistband.
+    fn run_above_fork_m(&self, run: &Run) -> f64 {
         let anatomy = self.anatomy;
-        let crotch = &self.inner[0].crotch;
-        let on_leg_m: f64 = crotch.iter().map(|step| anatomy.length_m(&[step.edge])).sum();
-        let above_m = anatomy.style().path_length_m(&self.up_to_edge(crotch)) - on_leg_m;
-        anatomy.place(crotch[0].other()).y - self.fork().at.y + above_m
+        let on_leg_m: f64 = run.crotch.iter().map(|step| anatomy.length_m(&[step.edge])).sum();
+        let above_m = anatomy.style().path_length_m(&self.up_to_edge(&run.crotch)) - on_leg_m;
+        anatomy.place(run.crotch[0].other()).y - anatomy.place(run.seam[0].other()).y + above_m
     }
 
     /// Path round the leg at a height above the fork, m, negative below it. `None` if the leg does not reach that
