@@ -5,14 +5,18 @@ use toile::{cli, tui};
 fn main() -> std::process::ExitCode {
     cli::main(std::env::args_os(), |workbench| {
         let images = workbench.images.parse()?;
-        tui::run(tui::Options {
+        let left = tui::run(tui::Options {
             database: workbench.database,
             is_database_named: workbench.is_database_named,
             readonly: workbench.readonly,
             no_color: workbench.no_color,
             images,
+            parquet: cli::parquet_bytes,
             quickstart: workbench.quickstart,
         })?;
-        Ok(())
+        Ok(match left {
+            tui::Left::Nothing => None,
+            tui::Left::Run(study) => Some(study),
+        })
     })
 }

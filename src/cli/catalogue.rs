@@ -169,7 +169,19 @@ fn list(context: &Context, part: Part, all: bool) -> Result<(), CliError> {
     let shown = if all { "" } else { "AND NOT is_retired" };
     let sql = format!("SELECT *, {key} AS entry FROM {view} WHERE is_latest {shown} ORDER BY entry");
     let entries = described(part, sql::query(&context.store()?, &sql)?);
-    context.print(&if context.json { entries } else { without(entries, &HIDDEN) })
+    if context.json {
+        return context.print(&entries);
+    }
+    let entries = without(entries, &HIDDEN);
+    let (entries, left_out) = match output::terminal_width() {
+        Some(width) => output::fitting(entries, width),
+        None => (entries, 0),
+    };
+    context.print(&entries)?;
+    if left_out > 0 {
+        context.say(format_args!("{left_out} more columns do not fit: `toile {part} show NAME` and --json have them"));
+    }
+    Ok(())
 }
 
 fn show(context: &Context, part: Part, name: &str) -> Result<(), CliError> {

@@ -6,7 +6,8 @@ use super::CliError;
 use super::args::{Format, Global};
 use engine::run;
 use spec::{QUICKSTART, Study, write_quickstart};
-use store::{PUBLISHED, Store, Table, files, read};
+use store::owner::Watch;
+use store::{PUBLISHED, Store, Table, files, queue, read};
 use wardrobe::catalogue;
 
 /// The global flags, resolved.
@@ -47,10 +48,23 @@ impl Context {
         })
     }
 
+    /// Refuses a database that was named and is not there, for commands that have nothing to make one for: a misspelt
+    /// path would leave folders behind.
+    pub fn must_be_there(&self) -> Result<(), CliError> {
+        if self.is_db_named && !self.db.exists() {
+            catalogue::open(&self.db, true)?;
+        }
+        Ok(())
+    }
+
     /// Opens the store.
     pub fn store(&self) -> Result<Store, CliError> {
         let is_new = !self.db.exists();
-        let store = catalogue::open(&self.db, self.readonly)?;
+        let mut store = catalogue::open(&self.db, self.readonly)?;
+        let lost = queue::recover(&mut store, &mut Watch::default())?;
+        if lost > 0 {
+            self.say(format_args!("a run was interrupted: {lost} of its jobs wait in the queue again"));
+        }
         if is_new && self.db.exists() {
             self.say(format_args!("made a new database: {}", self.db.display()));
         }

@@ -1,6 +1,7 @@
 //! Runs in the background: a run that outlives its terminal, and progress of a run as another terminal sees it.
 
 use std::collections::BTreeSet;
+use std::ffi::OsString;
 use std::fs::OpenOptions;
 use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
@@ -12,8 +13,9 @@ use std::time::Duration;
 use signal_hook::consts::SIGINT;
 
 use super::context::Context;
-use super::progress::Progress;
+use super::progress::{self, Progress};
 use super::{End, Outcome, output};
+use engine::Ending;
 use store::{JobFilter, JobId, JobRow, Status, Store, StudyError, files, read};
 
 /// Time between two checks of the running jobs.
@@ -23,6 +25,18 @@ const PATIENCE: u32 = 60;
 
 /// Starts this command again without `--detach`, in a process group of its own, with its output in a file.
 pub fn start(context: &Context, study: &str) -> Outcome {
+    spawn(context, study, std::env::args_os().skip(1).filter(|argument| argument != "--detach").collect())
+}
+
+/// Goes on with the run of a study that the workbench began.
+pub fn go_on(context: &Context, path: &Path) -> Outcome {
+    let study = context.study_name(&context.store()?, path)?;
+    let arguments = ["--db".as_ref(), context.db.as_os_str(), "run".as_ref(), path.as_os_str(), "--no-report".as_ref()];
+    spawn(context, &study, arguments.map(ToOwned::to_owned).to_vec())
+}
+
+/// Starts this program in a process group of its own, with its output in a file.
+fn spawn(context: &Context, study: &str, arguments: Vec<OsString>) -> Outcome {
     let log = log_file(&context.db, study);
     let io = |path: &Path| StudyError::io(path.to_owned());
     let out = OpenOptions::new().create(true).append(true).open(&log).map_err(io(&log))?;
@@ -30,7 +44,7 @@ pub fn start(context: &Context, study: &str) -> Outcome {
     let program = std::env::current_exe()?;
     // A terminal that closes ends only processes of its own group.
     let child = Command::new(&program)
-        .args(std::env::args_os().skip(1).filter(|argument| argument != "--detach"))
+        .args(arguments)
         .stdin(Stdio::null())
         .stdout(out)
         .stderr(errors)
@@ -39,9 +53,10 @@ pub fn start(context: &Context, study: &str) -> Outcome {
         .map_err(io(&program))?;
     output::text(&format!("{study} runs as process {}\n", child.id()))?;
     context.say(format_args!(
-        "log: {}\nfollow it with `toile run {study} --attach` or in the workbench; `kill {}` stops it, its unfinished jobs go \
+        "log: {}\nfollow it with `toile run {} --attach` or in the workbench; `kill {}` stops it, its unfinished jobs go \
          back into the queue",
         log.display(),
+        files::word(study),
         child.id()
     ));
     Ok(End::Done)
@@ -70,6 +85,11 @@ pub fn follow(context: &Context, store: &Store, study: &str) -> Outcome {
     progress.finish();
     let count = |status: Status| last.iter().filter(|job| job.status == status).count();
     let (queued, failed) = (count(Status::Queued), count(Status::Failed));
+    let ran = Status::ALL.into_iter().map(|status| (status, count(status))).filter(|(_, jobs)| *jobs > 0);
+    let ending = Ending { study: study.to_owned(), ran: ran.collect(), as_before: 0 };
+    if !is_left.load(Ordering::Relaxed) && !open.is_empty() {
+        progress::tell_end(context, &ending);
+    }
     if is_left.load(Ordering::Relaxed) {
         context.say("left; the run goes on");
     } else if queued > 0 {

@@ -104,6 +104,8 @@ pub struct Workbench {
     pub quickstart: PathBuf,
 }
 
+pub use parquet::bytes as parquet_bytes;
+
 /// Returns the command line: every command with its arguments.
 ///
 /// The possible values of an argument follow its help in the same line, so that a command's help fits a screen.
@@ -140,10 +142,10 @@ fn read(arguments: &[OsString]) -> Result<Arguments, clap::Error> {
 }
 
 /// Runs the program with its arguments, of which the first is its own name. Without a command it calls `workbench`,
-/// since this crate does not know the workbench.
+/// since this crate does not know the workbench; a study that this returns is run in the background then.
 pub fn main(
     arguments: impl IntoIterator<Item = OsString>,
-    workbench: impl FnOnce(Workbench) -> Result<(), Box<dyn Error>>,
+    workbench: impl FnOnce(Workbench) -> Result<Option<PathBuf>, Box<dyn Error>>,
 ) -> ExitCode {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let arguments = match read(&arguments) {
@@ -163,13 +165,19 @@ pub fn main(
     ExitCode::from(end as u8)
 }
 
-fn execute(arguments: Arguments, workbench: impl FnOnce(Workbench) -> Result<(), Box<dyn Error>>) -> Outcome {
+fn execute(
+    arguments: Arguments,
+    workbench: impl FnOnce(Workbench) -> Result<Option<PathBuf>, Box<dyn Error>>,
+) -> Outcome {
     let context = Context::new(arguments.global)?;
+    if arguments.command.as_ref().is_some_and(Command::only_tells) {
+        context.must_be_there()?;
+    }
     match arguments.command {
         None => {
             let quickstart = context::quickstart(&context.db);
-            workbench(Workbench {
-                database: context.db,
+            let left = workbench(Workbench {
+                database: context.db.clone(),
                 is_database_named: context.is_db_named,
                 readonly: context.readonly,
                 no_color: !context.colour,
@@ -177,7 +185,10 @@ fn execute(arguments: Arguments, workbench: impl FnOnce(Workbench) -> Result<(),
                 quickstart,
             })
             .map_err(|error| CliError::Usage(error.to_string()))?;
-            Ok(End::Done)
+            match left {
+                None => Ok(End::Done),
+                Some(study) => detached::go_on(&context, &study),
+            }
         }
         Some(Command::Run(arguments)) => run::run(&context, &arguments),
         Some(Command::Try(arguments)) => attempt::run(&context, &arguments),

@@ -96,6 +96,37 @@ pub fn encoded(table: &Table, format: Format) -> io::Result<Vec<u8>> {
     })
 }
 
+/// Columns of the terminal; `None` where standard output is none, or the terminal does not say.
+pub fn terminal_width() -> Option<usize> {
+    let is_terminal = io::IsTerminal::is_terminal(&io::stdout());
+    Grid::new().width().filter(|columns| is_terminal && *columns > 0).map(usize::from)
+}
+
+/// Blanks around a column.
+const GAP: usize = 3;
+
+/// Columns of a table that fit into a width side by side without a broken line, from the left, and the number of those
+/// left out.
+pub fn fitting(table: Table, width: usize) -> (Table, usize) {
+    let widest = |k: usize| {
+        let cells = table.rows.iter().map(|row| short(&row[k]).chars().count());
+        cells.chain([table.columns[k].chars().count()]).max().unwrap_or(0) + GAP
+    };
+    let mut left = width;
+    let fits = |k: &usize| {
+        let taken = widest(*k);
+        let is_fit = taken <= left;
+        left = left.saturating_sub(taken);
+        is_fit
+    };
+    let kept = (0..table.columns.len()).take_while(fits).count().max(1).min(table.columns.len());
+    let out = table.columns.len() - kept;
+    let Table { mut columns, mut rows } = table;
+    columns.truncate(kept);
+    rows.iter_mut().for_each(|row| row.truncate(kept));
+    (Table { columns, rows }, out)
+}
+
 /// Table as text. Numbers are right-aligned and have at most six significant digits.
 pub fn pretty(table: &Table) -> String {
     let mut grid = Grid::new();
@@ -104,8 +135,8 @@ pub fn pretty(table: &Table) -> String {
         grid.set_style(line, '─');
     }
     // A terminal wraps wide tables to its width; a file or a pipe gets whole lines.
-    let is_terminal = io::IsTerminal::is_terminal(&io::stdout());
-    grid.set_content_arrangement(if is_terminal { ContentArrangement::Dynamic } else { ContentArrangement::Disabled });
+    let is_wrapped = terminal_width().is_some();
+    grid.set_content_arrangement(if is_wrapped { ContentArrangement::Dynamic } else { ContentArrangement::Disabled });
     grid.set_header(&table.columns);
     for row in &table.rows {
         grid.add_row(row.iter().map(short));
@@ -152,6 +183,19 @@ mod tests {
                 vec![Value::Text("M".into()), Value::Real(974.1), Value::Text("a, \"b\"".into())],
             ],
         }
+    }
+
+    #[test]
+    fn a_narrow_terminal_gets_whole_columns() {
+        let check = |width: usize, kept: usize, out: usize| {
+            let (table, left_out) = fitting(sample(), width);
+            assert_eq!((table.columns.len(), table.rows[0].len(), left_out), (kept, kept, out), "{width}");
+        };
+        check(80, 3, 0);
+        check(7 + 12 + 9, 3, 0);
+        check(7 + 12 + 8, 2, 1);
+        check(7, 1, 2);
+        check(0, 1, 2);
     }
 
     #[test]

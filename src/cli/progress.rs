@@ -6,11 +6,21 @@ use std::io::IsTerminal;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
 use super::context::Context;
+use engine::{Ending, notification};
+use fit::Simulator;
 use store::{JobFilter, JobId, JobRow, Result, Status, Store, read};
 
-/// Label of a job, such as `tshirt S ii`.
-pub fn label(garment: &str, size: &str, subject: &str) -> String {
-    format!("{garment} {size} {subject}")
+/// Label of a job, such as `tshirt S ii fem`.
+pub fn label(garment: &str, size: &str, subject: &str, simulator: Simulator) -> String {
+    format!("{garment} {size} {subject} {}", simulator.as_str())
+}
+
+/// Prints the numbers of a run's jobs by their states at its end. On a terminal, rings and notifies where jobs ran.
+pub fn tell_end(context: &Context, ending: &Ending) {
+    context.say(ending);
+    if !context.quiet && !ending.ran.is_empty() && std::io::stderr().is_terminal() {
+        eprint!("{}", notification(&format!("toile: {ending}")));
+    }
 }
 
 /// Steps of a job's bar.
@@ -54,7 +64,7 @@ impl Bars {
         let Some(progress) = &job.progress else { return };
         let bar = self.running.entry(job.id).or_insert_with(|| {
             let bar = self.all.add(ProgressBar::new(STEPS).with_style(self.style.clone()));
-            bar.set_prefix(label(&job.garment, &job.size, &job.subject));
+            bar.set_prefix(label(&job.garment, &job.size, &job.subject, job.simulator));
             bar
         });
         bar.set_position((progress.fraction.clamp(0.0, 1.0) * STEPS as f64) as u64);
@@ -103,7 +113,7 @@ impl Progress {
                     None => {}
                 }
             } else if is_new && job.status == Status::Running && self.bars.is_none() && !self.quiet {
-                eprintln!("job {} {}: started", job.id, label(&job.garment, &job.size, &job.subject));
+                eprintln!("job {} {}: started", job.id, label(&job.garment, &job.size, &job.subject, job.simulator));
             }
         }
         Ok(())
@@ -120,11 +130,11 @@ impl Progress {
 
 /// Line about a job that ended.
 fn ended(job: &JobRow) -> String {
-    let what = label(&job.garment, &job.size, &job.subject);
+    let what = label(&job.garment, &job.size, &job.subject, job.simulator);
     let took = job.wall_ms.map(|ms| format!(" ({:.1} s)", ms as f64 / 1e3)).unwrap_or_default();
     let how = match (job.status, job.ei, &job.error) {
         (Status::Done, Some(ei), _) => format!("done, EI {ei:.4}"),
-        (Status::NotConverged, Some(ei), _) => format!("not converged, EI {ei:.4}"),
+        (Status::NotConverged, Some(ei), _) => format!("not at rest, EI {ei:.4}"),
         (status, _, Some(error)) => format!("{}: {error}", status.as_str()),
         (status, ..) => status.as_str().to_owned(),
     };

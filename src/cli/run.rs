@@ -10,9 +10,9 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 
 use super::args::{Engine, Run as Arguments, StudyPart};
 use super::context::Context;
-use super::progress::{Progress, label};
+use super::progress::{self, Progress, label};
 use super::{CliError, End, Outcome, detached, output, pictures, runs};
-use engine::{Planned, RunOptions, SlurmOptions, enqueue, run, slurm};
+use engine::{Ending, Planned, RunOptions, SlurmOptions, enqueue, run, slurm};
 use sim::Stage;
 use spec::{Limits, Selection, Study};
 use store::{JobFilter, JobId, JobRow, Status, Store, StudyError, Table, Value, files, read, sql};
@@ -118,8 +118,8 @@ fn tell_plan(context: &Context, study: &Study, planned: &[Planned], why: bool) -
     if why || context.verbose {
         for job in planned {
             let cell = job.cell;
-            let which = label(&cell.garment(study).name, &cell.size(study).name, &cell.subject(study).id);
-            context.say(format_args!("{which} {}: {}", cell.simulator.as_str(), job.why));
+            let (garment, size, subject) = (&cell.garment(study).name, &cell.size(study).name, &cell.subject(study).id);
+            context.say(format_args!("{}: {}", label(garment, size, subject, cell.simulator), job.why));
         }
     }
     let todo: BTreeSet<JobId> = planned.iter().filter(|job| job.why.will_run()).map(|job| job.id).collect();
@@ -169,9 +169,12 @@ pub fn work(
 ) -> Result<bool, CliError> {
     let interrupted = interruption()?;
     let run = run::start(store, study, options)?;
-    let todo = tell_plan(context, study, &run.planned, why);
-    if read::study(store, &study.name)?.paused {
-        context.say(format_args!("{0} is paused: jobs wait until `toile queue resume {0}`", study.name));
+    let planned = run.planned.clone();
+    let todo = tell_plan(context, study, &planned, why);
+    if read::study(store, &study.name)?.paused && !todo.is_empty() {
+        // Without a word, a quiet run would wait for ever.
+        let (name, word) = (&study.name, files::word(&study.name));
+        output::note(&format!("{name} is paused: its jobs wait until `toile queue resume {word}`"));
     }
     let mut progress = Progress::new(context, &study.name, todo);
     while !run.is_finished() {
@@ -184,6 +187,7 @@ pub fn work(
     run.join()?;
     progress.show(store)?;
     progress.finish();
+    progress::tell_end(context, &Ending::of(store, &study.name, &planned)?);
     Ok(interrupted.load(Ordering::Relaxed))
 }
 

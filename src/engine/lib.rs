@@ -26,6 +26,7 @@ pub mod attempt;
 mod carry;
 pub mod compose;
 pub mod ease;
+mod ending;
 pub mod enqueue;
 mod error;
 pub mod faults;
@@ -53,6 +54,7 @@ pub use attempt::{
     fabric as fabric_named,
 };
 pub use compose::{NewStudy, PatternSource, Wearable, wearables};
+pub use ending::{Ending, notification};
 pub use enqueue::{Planned, Why};
 pub use handout::{HandedOut, Merged, Ran, run_job};
 pub use outcome::{Executor, Measured, MeasuredPoint, Outcome};

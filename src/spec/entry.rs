@@ -95,12 +95,24 @@ impl<T> Field<T> {
         match text.trim() {
             "" if self.is_required => Err(format!("`{}` is missing; {accepted}", self.key)),
             "" => Ok(None),
-            text => match text.parse() {
-                Ok(number) => self.check(number).map(Some),
-                Err(_) => Err(format!("`{}` is `{text}`, which is no number; {accepted}", self.key)),
+            text => match decimal(text) {
+                Some(number) => self.check(number).map(Some),
+                None => Err(format!("`{}` is `{text}`, which is no number; {accepted}", self.key)),
             },
         }
     }
+}
+
+/// Number of a text, with a point or a comma before its decimals. A comma before three digits may part thousands, so
+/// that text is no number.
+#[must_use]
+pub fn decimal(text: &str) -> Option<f64> {
+    let Some((whole, decimals)) = text.split_once(',') else { return text.parse().ok() };
+    let is_plain = !decimals.is_empty() && decimals.chars().all(|letter| letter.is_ascii_digit());
+    if !is_plain || decimals.len() == 3 || whole.contains('.') {
+        return None;
+    }
+    format!("{whole}.{decimals}").parse().ok()
 }
 
 /// Key of an entry, and its value as text.
@@ -176,4 +188,24 @@ pub fn filled<T: Entry>(base: Option<&T>, name: &str, given: &[Given]) -> Result
     }
     problems.extend(entry.check().err());
     if problems.is_empty() { Ok(entry) } else { Err(problems) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decimals_follow_a_point_or_a_comma() {
+        let check = |text: &str, expect: Option<f64>| assert_eq!(decimal(text), expect, "{text}");
+        check("91.5", Some(91.5));
+        check("91,5", Some(91.5));
+        check("-0,25", Some(-0.25));
+        check("2e-5", Some(2e-5));
+        check("1,700", None);
+        check("1.700,5", None);
+        check("1,7,5", None);
+        check("91,", None);
+        check("91,5e3", None);
+        check("tall", None);
+    }
 }

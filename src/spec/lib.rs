@@ -16,7 +16,7 @@ mod schedule;
 mod sheets;
 pub mod versions;
 
-pub use entry::{Field, Given};
+pub use entry::{Field, Given, decimal};
 pub use error::SpecError;
 pub use export::export_study;
 pub use fields::{FABRIC_NUMBERS, MEASUREMENTS, sex};

@@ -349,7 +349,9 @@ pub fn database_error(error: &rusqlite::Error) -> String {
             "; another process keeps it to itself: wait for that one or end it, then start again"
         }
         Some(ErrorCode::ReadOnly) => "; the file or its folder may not be written to: --readonly reads it as it is",
-        Some(ErrorCode::CannotOpen) => "; it, its folder or its log may not be read or written",
+        Some(ErrorCode::CannotOpen) => {
+            "; it, its folder or its log may not be read, or not be written: --readonly needs no writing"
+        }
         Some(ErrorCode::DatabaseCorrupt | ErrorCode::NotADatabase) => "; `toile doctor` looks closer, a copy helps",
         _ => "",
     };

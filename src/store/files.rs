@@ -207,9 +207,28 @@ pub fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<Vec<Pat
     Ok(paths)
 }
 
+/// Text as one word of a shell's command line.
+#[must_use]
+pub fn word(text: &str) -> String {
+    let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "_-./+@%".contains(letter);
+    if !text.is_empty() && text.chars().all(is_plain) {
+        return text.to_owned();
+    }
+    format!("'{}'", text.replace('\'', "'\\''"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn words_of_a_shell_are_quoted() {
+        let check = |text: &str, expect: &str| assert_eq!(word(text), expect);
+        check("studies/a-b_1.toml", "studies/a-b_1.toml");
+        check("my shirt", "'my shirt'");
+        check("anna's", "'anna'\\''s'");
+        check("", "''");
+    }
 
     #[test]
     fn a_folder_of_another_program_is_its_one_pattern() {

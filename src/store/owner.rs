@@ -36,6 +36,27 @@ impl fmt::Display for Owner {
     }
 }
 
+/// A process that runs jobs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Runner {
+    /// The process in words, with its machine.
+    pub name: String,
+    /// Number of the process, if it is one of this machine.
+    pub pid: Option<u32>,
+    /// Number of jobs that it runs.
+    pub jobs: usize,
+}
+
+impl Runner {
+    /// The process of an owner.
+    pub(crate) fn new(owner: &str, jobs: usize) -> Self {
+        let mut parts = owner.split('/');
+        let is_here = parts.next() == Some(&host());
+        let pid = parts.nth(1).and_then(|pid| pid.parse().ok()).filter(|_| is_here);
+        Self { name: describe(owner), pid, jobs }
+    }
+}
+
 /// Returns an owner in words.
 pub(crate) fn describe(owner: &str) -> String {
     let mut parts = owner.split('/');

@@ -6,10 +6,11 @@
 use rusqlite::{Connection, OptionalExtension, Transaction, named_params};
 
 use crate::columns::status;
+use crate::database::Store;
 use crate::error::{Result, StudyError};
-use crate::owner::{self, Owner, Watch};
+use crate::owner::{self, Owner, Runner, Watch};
 use crate::rows::{JobId, Status};
-use crate::transaction::now_ms;
+use crate::transaction::{lightly, now_ms};
 
 /// Number of lost processes after which a job fails, since the job itself might be what ends them.
 const MAX_LOST: u32 = 10;
@@ -175,24 +176,55 @@ pub fn claim(transaction: &Transaction<'_>, owner: &Owner, watch: &mut Watch) ->
     Ok(next)
 }
 
-/// Puts jobs of dead owners back into the queue.
-pub fn take_over(transaction: &Transaction<'_>, watch: &mut Watch) -> Result<()> {
-    let running: Vec<(JobId, String, i64)> = transaction
+/// Running jobs of dead owners, with these owners.
+fn lost(connection: &Connection, watch: &mut Watch) -> Result<Vec<(JobId, String)>> {
+    let running: Vec<(JobId, String, i64)> = connection
         .prepare_cached("SELECT job_id, owner, heartbeat_at FROM job WHERE status = 'running'")?
         .query_map([], |row| Ok((JobId(row.get(0)?), row.get(1)?, row.get(2)?)))?
         .collect::<rusqlite::Result<_>>()?;
-    for (id, owner, heartbeat) in running {
-        if !owner::is_dead(&owner).unwrap_or_else(|| watch.stands_still(id, heartbeat)) {
-            continue;
-        }
-        let message = format!("{} ended before the job did", owner::describe(&owner));
-        if let Some(after) = apply(transaction, id, &Event::Lose, Some(&message))? {
+    let is_lost = |(id, owner, heartbeat): &(JobId, String, i64)| {
+        owner::is_dead(owner).unwrap_or_else(|| watch.stands_still(*id, *heartbeat))
+    };
+    Ok(running.into_iter().filter(is_lost).map(|(id, owner, _)| (id, owner)).collect())
+}
+
+/// Puts jobs of dead owners back into the queue. Returns their number.
+pub fn take_over(transaction: &Transaction<'_>, watch: &mut Watch) -> Result<usize> {
+    let lost = lost(transaction, watch)?;
+    for (id, owner) in &lost {
+        let message = format!("{} ended before the job did", owner::describe(owner));
+        if let Some(after) = apply(transaction, *id, &Event::Lose, Some(&message))? {
             let text =
                 format!("{message}; {}", if after.status == Status::Failed { "given up" } else { "queued again" });
-            log(transaction, id, "warn", &text)?;
+            log(transaction, *id, "warn", &text)?;
         }
     }
-    Ok(())
+    Ok(lost.len())
+}
+
+/// Puts the jobs of runs that were interrupted back into the queue, as [`take_over`] does; takes the lock for writing
+/// only where there are some. Returns their number, 0 where the database is open for reading only.
+///
+/// # Errors
+/// When the database cannot be read or written.
+pub fn recover(store: &mut Store, watch: &mut Watch) -> Result<usize> {
+    if store.is_readonly() || lost(&store.reader, watch)?.is_empty() {
+        return Ok(0);
+    }
+    lightly(store.writer()?, |transaction| take_over(transaction, watch))
+}
+
+/// Processes that run jobs of a study now.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn runners(store: &Store, study: &str) -> Result<Vec<Runner>> {
+    let sql = "SELECT owner, count(*) FROM job JOIN study USING (study_id)
+        WHERE study.name = ? AND status = 'running' GROUP BY owner ORDER BY owner";
+    let mut statement = store.reader.prepare_cached(sql)?;
+    let rows = statement
+        .query_map([study], |row| Ok(Runner::new(&row.get::<_, String>(0)?, row.get::<_, i64>(1)? as usize)))?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
 }
 
 /// True if one of the jobs of [`want`] is queued or runs in any process, so that a worker may still get it.

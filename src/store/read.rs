@@ -125,6 +125,17 @@ pub fn grid(store: &Store, study: &str, garment: &str) -> Result<Grid> {
     Ok(Grid { study: study.to_owned(), garment: garment.to_owned(), sizes, subjects, simulators, cells, fits })
 }
 
+/// Fabric of each garment of a study, by name: that of its first current job.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn cloths(store: &Store, study: &str) -> Result<BTreeMap<String, String>> {
+    let sql =
+        "SELECT garment, fabric.name, min(job_id) FROM job JOIN study USING (study_id) JOIN fabric USING (fabric_id)
+        WHERE study.name = ? AND is_current GROUP BY garment";
+    Ok(rows(store, sql, &[&study], |row| Ok((row.get(0)?, row.get(1)?)))?.into_iter().collect())
+}
+
 /// Jobs of a selection, by study and in the order of queueing.
 ///
 /// # Errors
@@ -354,6 +365,15 @@ fn job_row(row: &Row<'_>) -> rusqlite::Result<JobRow> {
         ei: row.get(16)?,
         progress,
     })
+}
+
+/// Offset of the machine's local time from UTC at a time in ms since 1970, ms. SQLite asks the system for its zone.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn local_offset_ms(store: &Store, at_ms: i64) -> Result<i64> {
+    let sql = "SELECT 1000 * (CAST(strftime('%s', ?1, 'unixepoch', 'localtime') AS INTEGER) - ?1)";
+    Ok(store.reader.prepare_cached(sql)?.query_row([at_ms.div_euclid(1000)], |row| row.get(0))?)
 }
 
 /// Reads a step from five columns, from column `first` on. NULL stands for NaN, as SQLite stores it.

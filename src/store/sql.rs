@@ -10,7 +10,7 @@ use rusqlite::fallible_iterator::FallibleIterator;
 use rusqlite::types::ValueRef;
 
 use crate::database::Store;
-use crate::error::{InOrigin, Origin, Result, StudyError};
+use crate::error::{InOrigin, Origin, Result, StudyError, nearest};
 use crate::files::kind_of;
 use crate::rows::{Table, Value, csv_head, csv_row};
 
@@ -139,8 +139,48 @@ fn each_row(
         StudyError::Database(error) if error.sqlite_error_code() == Some(ErrorCode::OperationInterrupted) => {
             StudyError::Interrupted
         }
+        StudyError::Database(error) => refusal(store, text, error),
         error => error,
     })
+}
+
+/// Refusal of a query: what SQLite says of it, and what helps.
+#[derive(Debug, thiserror::Error)]
+#[error("{said}{hint}")]
+struct QueryError {
+    said: String,
+    hint: String,
+}
+
+/// Error of a query, with the name that was meant where one is near to a name that is not there.
+fn refusal(store: &Store, text: &str, error: rusqlite::Error) -> StudyError {
+    let said = match &error {
+        // SQLite repeats the whole query, which its author knows.
+        rusqlite::Error::SqlInputError { msg, .. } => msg.clone(),
+        other => other.to_string(),
+    };
+    let unknown = |kind: &str| said.strip_prefix(kind).map(|name| name.rsplit('.').next().unwrap_or(name).to_owned());
+    let known = relations(store).unwrap_or_default();
+    let hint = match (unknown("no such column: "), unknown("no such table: ")) {
+        (Some(column), _) => {
+            let words: Vec<&str> = text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+            let is_named = |relation: &&Relation| words.iter().any(|word| word.eq_ignore_ascii_case(&relation.name));
+            let named: Vec<&Relation> = known.iter().filter(is_named).collect();
+            let columns = named.iter().flat_map(|relation| &relation.columns).map(String::as_str);
+            did_you_mean(&column, columns)
+        }
+        (_, Some(table)) => did_you_mean(&table, known.iter().map(|relation| relation.name.as_str())),
+        _ if error.sqlite_error_code() == Some(ErrorCode::ReadOnly) => {
+            "; a query only reads: `toile subject`, `style`, `fabric` and `queue` change what is here".to_owned()
+        }
+        _ => String::new(),
+    };
+    StudyError::refused(Origin::Sql, QueryError { said, hint })
+}
+
+/// Question for the name that was meant; empty where none is near.
+fn did_you_mean<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
+    nearest(name, known).map_or(String::new(), |near| format!("; did you mean `{near}`?"))
 }
 
 fn walk_rows(
@@ -258,6 +298,24 @@ mod tests {
             assert!(told.contains("accepted: X.csv or X.json") && !folder.path().join(other).exists(), "{told}");
         }
         assert!(write("b.csv", "SELECT nothing").is_err() && !folder.path().join("b.csv").exists());
+    }
+
+    #[test]
+    fn a_refused_query_is_told_what_helps() {
+        let (_folder, store) = open();
+        let check = |text: &str, expect: &str| {
+            let told = query(&store, text).expect_err(text).to_string();
+            assert_eq!(told, expect, "{text}");
+        };
+        check("SELECT subjct FROM v_metrics", "sql: no such column: subjct; did you mean `subject`?");
+        check("SELECT m.subjct FROM v_metrics AS m", "sql: no such column: m.subjct; did you mean `subject`?");
+        check("SELECT qqqqqq FROM v_metrics", "sql: no such column: qqqqqq");
+        check("SELECT ei FROM v_metric", "sql: no such table: v_metric; did you mean `v_metrics`?");
+        check(
+            "DELETE FROM job",
+            "sql: attempt to write a readonly database; a query only reads: `toile subject`, `style`, `fabric` and `queue` \
+             change what is here",
+        );
     }
 
     #[test]

@@ -4,6 +4,9 @@ use std::path::{Path, PathBuf};
 
 use toml::de::{DeTable, DeValue};
 
+/// Variables of the environment: name to value.
+pub type Env<'a> = dyn Fn(&str) -> Option<String> + 'a;
+
 /// All problems of one of the user's own files.
 #[derive(Debug, thiserror::Error)]
 #[error("{}", .0.join("\n"))]
@@ -11,7 +14,7 @@ pub struct ConfigError(Vec<String>);
 
 /// Path of a file in `toile` of the config folder.
 #[must_use]
-pub fn path(env: &dyn Fn(&str) -> Option<String>, file: &str) -> Option<PathBuf> {
+pub fn path(env: &Env<'_>, file: &str) -> Option<PathBuf> {
     let set = |name: &str| env(name).filter(|value| !value.is_empty()).map(PathBuf::from);
     let folder = set("XDG_CONFIG_HOME").or_else(|| set("HOME").map(|home| home.join(".config")))?;
     Some(folder.join("toile").join(file))

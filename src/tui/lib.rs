@@ -33,21 +33,24 @@ mod widgets;
 use std::collections::VecDeque;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::RecvTimeoutError;
+use std::sync::mpsc::{RecvError, RecvTimeoutError};
+use std::time::Instant;
 
 pub use app::headless::Headless;
 pub use widgets::picture::Images;
 
-use app::session::{self, Session};
+use app::fading::Fading;
+use app::session::{self, Keeper, Session};
 use app::{App, frame};
 use config::ConfigError;
+use engine::notification;
 use keys::file as keys_file;
 use messages::effect::Effect;
 use messages::message::Message;
 use screens::state::{Abilities, Folders};
-use store::StudyError;
+use store::{StudyError, Table};
 use terminal::Display;
-use terminal::clipboard::osc52;
+use terminal::clipboard;
 use threads::Threads;
 use wardrobe::catalogue;
 use widgets::picture::PictureEncoder;
@@ -66,6 +69,8 @@ pub struct Options {
     pub no_color: bool,
     /// Way in which pictures are shown.
     pub images: Images,
+    /// Maker of a Parquet file from rows, for exports.
+    pub parquet: fn(&Table) -> Vec<u8>,
     /// Folder of the study that comes with the program. A database without studies is offered it; it is written when it
     /// is run.
     pub quickstart: PathBuf,
@@ -85,12 +90,21 @@ pub enum TuiError {
     Terminal(#[from] io::Error),
 }
 
+/// Work that is left when the workbench was left.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Left {
+    /// Nothing.
+    Nothing,
+    /// The study at a path is to be run on by another process, as the user wished.
+    Run(PathBuf),
+}
+
 /// Runs the workbench until the user leaves it. A run that was started in it is then stopped, and its unfinished jobs
 /// go back into the queue. When the terminal is lost, the run is waited for instead.
 ///
 /// # Errors
 /// When the database cannot be opened, a file of keys or colours is wrong, or there is no terminal.
-pub fn run(options: Options) -> Result<(), TuiError> {
+pub fn run(options: Options) -> Result<Left, TuiError> {
     let env = |name: &str| std::env::var(name).ok();
     let keys = keys_file::read(config::path(&env, keys_file::FILE).as_deref())?;
     let store = catalogue::open(&options.database, options.readonly)?;
@@ -108,14 +122,17 @@ pub fn run(options: Options) -> Result<(), TuiError> {
     app.screens.sql.editor.edit_as(keys.editing);
     let named = options.is_database_named.then(|| std::path::absolute(&options.database)).transpose()?;
     app.state.setup.database = named;
-    let session = session::path(&options.database, &env);
-    session.as_deref().map(Session::read).unwrap_or_default().restore(&mut app);
-    let threads = Threads::start(store, encoder, options.quickstart, app.state.setup.folders.reports.clone());
-    let outcome = event_loop(&mut display, &mut app, &threads);
+    // Over SSH the terminal is elsewhere, and its own selection of text matters more.
+    app.state.terminal.has_mouse = env("SSH_TTY").is_none_or(|terminal| terminal.is_empty());
+    let path = session::path(&options.database, &env);
+    let session = path.as_deref().map(Session::read).unwrap_or_default();
+    session.clone().restore(&mut app);
+    let mut keeper = Keeper::new(path, session);
+    let threads =
+        Threads::start(store, encoder, options.quickstart, app.state.setup.folders.reports.clone(), options.parquet);
+    let outcome = event_loop(&mut display, &mut app, &threads, &mut keeper);
     drop(display);
-    if let Some(path) = session {
-        Session::of(&app).write(&path);
-    }
+    keeper.keep(&app);
     threads.finish();
     Ok(outcome?)
 }
@@ -127,29 +144,36 @@ fn folders(options: &Options) -> Folders {
 }
 
 /// Handles messages and draws, until the user leaves.
-fn event_loop(display: &mut Display, app: &mut App, threads: &Threads) -> io::Result<()> {
+fn event_loop(display: &mut Display, app: &mut App, threads: &Threads, keeper: &mut Keeper) -> io::Result<Left> {
     let mut silence = None;
+    let mut fading = Fading::default();
     threads.read(app.state.focus.clone());
     terminal::take_mouse(app.state.terminal.has_mouse)?;
     display.show(|frame| frame::draw(frame, app))?;
     loop {
-        let message = match display.pause().filter(|_| !app.state.terminal.detached) {
-            None => threads.messages.recv().ok(),
-            Some(pause) => match threads.messages.recv_timeout(pause) {
+        fading.follow(app.state.told.notice.as_ref(), Instant::now());
+        let due = [display.pause(), fading.left(Instant::now()), keeper.left()].into_iter().flatten().min();
+        let message = match due.filter(|_| !app.state.terminal.detached) {
+            None => threads.messages.recv(),
+            Some(due) => match threads.messages.recv_timeout(due) {
+                Err(RecvTimeoutError::Timeout) if fading.is_over(Instant::now()) => Ok(Message::Faded),
                 Err(RecvTimeoutError::Timeout) => {
+                    keeper.keep_in_time(app);
                     // A lost terminal is noticed at the next message.
                     let _ = display.go_on(|frame| frame::draw(frame, app));
                     continue;
                 }
-                message => message.ok(),
+                Err(RecvTimeoutError::Disconnected) => Err(RecvError),
+                Ok(message) => Ok(message),
             },
         };
-        let Some(message) = message else { return Ok(()) };
+        let Ok(message) = message else { return Ok(Left::Nothing) };
         // Handles all waiting messages before the next frame, so that a flood of keys or progress costs one frame.
         let mut waiting: VecDeque<Message> = std::iter::once(message).chain(threads.messages.try_iter()).collect();
         while let Some(message) = waiting.pop_front() {
-            if matches!(message, Message::Key(_)) {
+            if matches!(message, Message::Key(_) | Message::Mouse(_)) {
                 display.key_pressed();
+                keeper.touch();
             }
             if cfg!(debug_assertions) && matches!(message, Message::Key(_)) && std::env::var_os("TOILE_BREAK").is_some()
             {
@@ -157,19 +181,13 @@ fn event_loop(display: &mut Display, app: &mut App, threads: &Threads) -> io::Re
             }
             for effect in app.update(message) {
                 match effect {
-                    Effect::Quit => return Ok(()),
-                    Effect::Copy(text) => print_raw(&osc52(&text))?,
-                    Effect::Clear => display.clear()?,
-                    Effect::Write(what) => {
-                        let text = threads.keyboard.lend(|| display.lend(|| terminal::editor::edit(&what)))?;
-                        terminal::take_mouse(app.state.terminal.has_mouse)?;
-                        waiting.push_front(Message::Written(Box::new(what), text));
-                    }
-                    Effect::Mouse(is_taken) => terminal::take_mouse(is_taken)?,
-                    other => threads.carry_out(other),
+                    Effect::Quit => return Ok(Left::Nothing),
+                    Effect::LeaveRunning(target) => return Ok(Left::Run(threads.path_of(target))),
+                    effect => waiting.extend(carry_out(effect, display, app, threads, keeper)?),
                 }
             }
         }
+        keeper.keep_in_time(app);
         if !app.state.terminal.detached
             && let Err(error) = display.show(|frame| frame::draw(frame, app))
             && app.update(Message::Hangup).contains(&Effect::Quit)
@@ -180,6 +198,39 @@ fn event_loop(display: &mut Display, app: &mut App, threads: &Threads) -> io::Re
             silence = Some(terminal::silence_input()?);
         }
     }
+}
+
+/// Carries out an effect on the terminal, or hands it to its thread. Returns a message about its outcome, if that is
+/// known at once.
+fn carry_out(
+    effect: Effect,
+    display: &mut Display,
+    app: &App,
+    threads: &Threads,
+    keeper: &Keeper,
+) -> io::Result<Option<Message>> {
+    let has_mouse = app.state.terminal.has_mouse;
+    match effect {
+        Effect::Copy(text) => {
+            let env = |name: &str| std::env::var(name).ok();
+            let file = keeper.folder().map(|folder| folder.join("copied.txt"));
+            return Ok(Some(Message::Copied(clipboard::copy(&text, &env, &mut io::stdout(), file.as_deref()))));
+        }
+        Effect::Notify(text) => print_raw(&notification(&text))?,
+        Effect::Clear => display.clear()?,
+        Effect::Suspend => {
+            threads.keyboard.lend(|| display.lend(terminal::stop))?;
+            terminal::take_mouse(has_mouse)?;
+        }
+        Effect::Write(what) => {
+            let text = threads.keyboard.lend(|| display.lend(|| terminal::editor::edit(&what)))?;
+            terminal::take_mouse(has_mouse)?;
+            return Ok(Some(Message::Written(Box::new(what), text)));
+        }
+        Effect::Mouse(is_taken) => terminal::take_mouse(is_taken)?,
+        other => threads.carry_out(other),
+    }
+    Ok(None)
 }
 
 fn print_raw(sequence: &str) -> io::Result<()> {

@@ -192,6 +192,59 @@ fn a_changed_number_recomputes_its_drape(place: &Place) {
 }
 
 #[test]
+fn a_quiet_run_of_a_paused_study_says_that_it_waits_and_a_run_tells_its_end() {
+    let place = Place::new();
+    place.study(&[("tee", 0.1, &["s"])]);
+    place.toile("run . --no-report --detach").ends_with(0);
+    place.toile("queue pause coarse").ends_with(0);
+    place.toile("queue cancel --study coarse").ends_with(0);
+    place.toile("queue retry --study coarse").ends_with(0);
+    let mut command = place.command("run . --no-report --quiet");
+    let mut run = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("it starts");
+    let mut told = String::new();
+    let mut errors = std::io::BufReader::new(run.stderr.take().expect("piped"));
+    std::io::BufRead::read_line(&mut errors, &mut told).expect("a line");
+    assert!(told.contains("coarse is paused: its jobs wait until `toile queue resume coarse`"), "{told}");
+    place.toile("queue resume coarse").ends_with(0);
+    assert!(run.wait().expect("ours").success());
+    let again = place.toile("run . --no-report").ends_with(0);
+    assert!(again.err.contains("coarse: 1 up to date before") && !again.err.contains('\x07'), "{}", again.err);
+}
+
+#[test]
+fn what_only_tells_makes_no_database() {
+    let place = Place::new();
+    for command in ["info", "queue ls", "sql times", "export 1 -o a.glb"] {
+        let mut command = place.command(command);
+        let output = command.env("TOILE_DB", place.path("typo/x.sqlite")).output().expect("it starts");
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(!output.status.success() && told.contains("there is no such file"), "{told}");
+        assert!(!place.path("typo").exists(), "{command:?}");
+    }
+}
+
+#[test]
+fn a_file_is_studied_twice_and_bare_names_are_those_of_the_project() {
+    let place = Place::new();
+    place.draft();
+    let new = |rest: &str| place.toile(&format!("study new {rest} --pattern patterns/tshirt-m.dxf --subject male-ii"));
+    new("mine").ends_with(0);
+    let again = new("other").ends_with(0);
+    assert!(again.err.contains("style tshirt-m is in the catalogue already, of the same files"), "{}", again.err);
+    assert!(place.path("mine/study.toml").exists() && place.path("other/study.toml").exists());
+    place.write("patterns/tshirt-m.dxf", std::fs::read(place.path("patterns/tshirt-s.dxf")).expect("drafted"));
+    let refused = new("third").ends_with(2);
+    assert!(refused.err.contains("a style `tshirt-m` already, of other files; --as NAME"), "{}", refused.err);
+    new("third --as small").ends_with(0);
+    std::fs::create_dir(place.path("studies")).expect("writable");
+    let told = new("fourth --as small").ends_with(0);
+    assert!(place.path("studies/fourth/study.toml").exists(), "{}", told.err);
+    assert!(told.err.contains("`toile run studies/fourth` runs it"), "{}", told.err);
+    let told = place.toile("subject rm male-ii").ends_with(2);
+    assert!(told.err.contains("jobs of") && told.err.contains("`toile queue cancel --study"), "{}", told.err);
+}
+
+#[test]
 fn a_killed_run_goes_on_where_it_stopped() {
     let place = Place::new();
     place.study(&[("tee", 0.1, &["s", "m", "l"])]);
@@ -206,7 +259,10 @@ fn a_killed_run_goes_on_where_it_stopped() {
     }
     run.kill().expect("SIGKILL");
     run.wait().expect("ours");
-    assert_eq!(place.sql(state), ["done 1", "running 1", "queued 0"], "killed in the middle");
+    let told = place.toile("queue ls").ends_with(0);
+    assert!(told.err.contains("a run was interrupted: 1 of its jobs wait in the queue again"), "{}", told.err);
+    assert!(told.out.contains("ended before the job did") && !told.out.contains("running"), "{}", told.out);
+    assert_eq!(place.sql(state), ["done 1", "queued 1", "queued 0"], "killed in the middle");
     let first = "SELECT * FROM v_jobs WHERE job_id = 1";
     let before = place.one(first);
     let chi = place.sql("SELECT * FROM v_chi ORDER BY job_id, measurement_no");

@@ -55,7 +55,7 @@ fn whole_session(columns: u16, rows: u16) {
     let compared = seat.wait_for("nearest to 1, of");
     assert!(compared.contains("Neck Opening") && compared.contains("differ in:"), "{compared}");
 
-    seat.press("7SELECT garment, size, simulator, status FROM v_jobs WHERE is_current ORDER BY size<F5>");
+    seat.press("7eSELECT garment, size, simulator, status FROM v_jobs WHERE is_current ORDER BY size<F5>");
     let answer = seat.wait_for("2 rows in");
     assert!(answer.contains("tshirt") && answer.contains("hybrid"), "{answer}");
     seat.press("<Tab>8b");
@@ -92,7 +92,7 @@ fn run_cancel_retry(seat: &Seat) {
     seat.press("r");
     seat.wait_until("queued again", |screen| screen.contains("…2") && !screen.contains("⊘1"));
     seat.press("p");
-    seat.wait_for("the run of study-1 has ended");
+    seat.wait_for("the run has ended: study-1: 2 done");
     seat.wait_until("two results", |screen| !screen.contains("…1") && !screen.contains("▶"));
 }
 
@@ -132,6 +132,106 @@ fn signals_leave_the_terminal_as_it_was() {
         seat.end();
         seat.is_sane();
     }
+}
+
+#[test]
+fn what_was_left_by_a_crash_is_there_again() {
+    let place = Place::new();
+    let Some(mut seat) = Seat::take(&workbench(&place), 80, 24) else { return };
+    seat.wait_for("no study yet");
+    seat.press("9<Down>");
+    let kept = || {
+        std::fs::read_dir(place.path("state/toile"))
+            .into_iter()
+            .flatten()
+            .flatten()
+            .any(|file| fs::read_to_string(file.path()).is_ok_and(|text| text.contains("\"screen\": 8")))
+    };
+    seat.wait_until("the session", |_| kept());
+    seat.signal(Signal::KILL);
+    seat.end();
+    let Some(mut seat) = Seat::take(&workbench(&place), 80, 24) else { return };
+    seat.wait_for("9 Fabrics");
+    seat.press("<C-c>");
+    seat.end();
+}
+
+#[test]
+fn ctrl_z_gives_the_terminal_to_the_shell_and_fg_takes_it_again() {
+    let place = Place::new();
+    let inner = workbench(&place);
+    let mut shell = Command::new("sh");
+    let program = inner.get_program().to_string_lossy().into_owned();
+    shell.arg("-c").arg(format!("set -m; '{program}'; echo back in the shell; read line; fg >&2; echo end"));
+    shell.current_dir(inner.get_current_dir().expect("a folder"));
+    inner.get_envs().for_each(|(name, value)| {
+        drop(match value {
+            Some(value) => shell.env(name, value),
+            None => shell.env_remove(name),
+        })
+    });
+    let Some(mut seat) = Seat::take(&shell, 80, 24) else { return };
+    seat.wait_for("no study yet");
+    seat.press("9");
+    seat.wait_for("30 fabrics");
+    seat.press("\x1a");
+    seat.wait_for("back in the shell");
+    seat.is_sane();
+    seat.press("go on\n");
+    seat.wait_for("30 fabrics");
+    seat.press("<C-c>");
+    seat.wait_for("end");
+    seat.end();
+    seat.is_sane();
+}
+
+#[test]
+fn a_copy_says_where_it_is() {
+    let place = Place::new();
+    place.write("bin/tmux", "#!/bin/sh\n[ \"$1 $2\" = 'load-buffer -w' ] && cat > buffer\n");
+    let tmux = place.path("bin/tmux");
+    fs::set_permissions(&tmux, std::os::unix::fs::PermissionsExt::from_mode(0o755)).expect("ours");
+    let check = |set: &[(&str, String)], told: &str| {
+        let mut command = workbench(&place);
+        set.iter().for_each(|(name, value)| drop(command.env(name, value)));
+        let Some(mut seat) = Seat::take(&command, 160, 24) else { return };
+        seat.wait_for("1 Study");
+        seat.press("9");
+        seat.wait_for("30 fabrics");
+        seat.press("gy");
+        seat.wait_for(told);
+        seat.press("<C-c>");
+        seat.end();
+    };
+    check(&[], "copied the fabric: sent to your terminal's clipboard (OSC 52)");
+    let path = format!("{}:{}", place.path("bin").display(), std::env::var("PATH").unwrap_or_default());
+    check(&[("TMUX", "/tmp/tmux,1,0".to_owned()), ("PATH", path)], "copied the fabric: in the buffer of tmux");
+    let copied = fs::read_to_string(place.path("buffer")).expect("loaded");
+    check(&[("TERM", "linux".to_owned())], "since no clipboard is in reach");
+    let file = fs::read_to_string(place.path("state/toile/copied.txt")).expect("written");
+    assert!(copied == file && file.starts_with("chiffon\t"), "{copied} {file}");
+}
+
+#[test]
+fn a_run_is_left_to_another_process() {
+    let place = Place::new();
+    place.study(&[("light", 0.1, &["s", "m", "l"])]);
+    // A pause lets the run be left before it ends.
+    place.toile("run . --no-report --size s").ends_with(0);
+    place.toile("queue pause coarse").ends_with(0);
+    let Some(mut seat) = Seat::take(&workbench(&place), 80, 24) else { return };
+    seat.wait_for("coarse");
+    seat.press("R");
+    seat.wait_for("its jobs wait until p resumes it");
+    seat.press("q");
+    seat.wait_for("l leave it running");
+    seat.press("l");
+    assert_eq!(seat.end().code(), Some(0));
+    seat.is_sane();
+    assert!(seat.screen().contains("coarse runs as process"), "{}", seat.screen());
+    place.toile("queue resume coarse").ends_with(0);
+    place.toile("run coarse --attach").ends_with(0);
+    assert_eq!(place.one("SELECT count(*) FROM v_jobs WHERE status IN ('done', 'not_converged')"), "3");
 }
 
 #[test]
@@ -180,7 +280,7 @@ fn a_key_costs_less_than_four_kilobytes(columns: u16, rows: u16, frames: usize) 
         ("8", "j"),
         (":", "q <C-c>"),
         ("?", "n <C-c>"),
-        ("7", "s e l"),
+        ("7", "e s l"),
     ] {
         check(screen, frames);
         keys.split(' ').for_each(|key| check(key, 1));
@@ -266,7 +366,7 @@ fn what_was_done_is_done_again_by_its_commands() {
     seat.press("<Enter>");
     seat.wait_for("…1");
     seat.press("R");
-    seat.wait_for("the run of study-1 has ended");
+    seat.wait_for("the run has ended: study-1: 1 ");
     seat.press("L");
     let told = commands(&seat.wait_for("toile run "));
     seat.press("q:quit<Enter>");

@@ -167,6 +167,15 @@ pub enum Command {
     Man,
 }
 
+impl Command {
+    /// True if the command only tells what a database has, so that it makes none.
+    pub fn only_tells(&self) -> bool {
+        let is_telling =
+            matches!(self, Self::Queue(_) | Self::Sql(_) | Self::Info | Self::Recommend(_) | Self::Section(_));
+        is_telling || matches!(self, Self::Render(_) | Self::Export(_))
+    }
+}
+
 /// Arguments of `lab`.
 #[derive(Debug, Args)]
 pub struct Lab {

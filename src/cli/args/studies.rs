@@ -43,7 +43,7 @@ pub enum StudyCommand {
     /// Start a study: a folder with a study.toml that says what may be in it, and drafted patterns, what the catalogue has, or
     /// patterns of your own.
     New {
-        /// Folder to make.
+        /// Folder to make. In a project a bare name is one in its folder `studies`, as in the workbench.
         folder: PathBuf,
         /// Style to draft.
         #[arg(long, value_enum, default_value_t = DraftStyle::Tshirt, conflicts_with_all = ["wear", "subject", "patterns"])]
@@ -55,9 +55,12 @@ pub enum StudyCommand {
         #[arg(long, value_name = "NAME")]
         subject: Vec<String>,
         /// Patterns of your own (DXF, GarmentCode JSON), all sizes of which are worn: they become a style of the catalogue, called as the
-        /// first file. Its seams are proposed where there is no --seams.
+        /// first file; a style of the same files is taken as it is. Its seams are proposed where there is no --seams.
         #[arg(long = "pattern", value_name = "[SIZE=]FILE", num_args = 1.., requires = "subject")]
         patterns: Vec<String>,
+        /// Name of their style, instead of that of the first file.
+        #[arg(long = "as", value_name = "NAME", requires = "patterns")]
+        style_name: Option<String>,
         /// Seam file of those patterns.
         #[arg(long, value_name = "FILE", requires = "patterns")]
         seams: Option<PathBuf>,

@@ -4,13 +4,13 @@ use crate::app::App;
 use crate::app::frame::keys_of;
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
-use crate::overlays::Overlay;
 use crate::overlays::action_list::List;
 use crate::overlays::commands::CommandLog;
 use crate::overlays::explanation::Explanation;
 use crate::overlays::jump::Jump;
 use crate::overlays::things::Thing;
 use crate::overlays::tour::Tour;
+use crate::overlays::{Answer, Overlay};
 use crate::screens::movement::Movement;
 use crate::screens::page::Copied;
 use crate::screens::state::State;
@@ -68,6 +68,7 @@ impl App {
             Action::Tour => self.tour(0),
             Action::Commands => state.overlay = Some(Overlay::Commands(CommandLog::of(&state.told.commands))),
             Action::Redraw => return vec![Effect::Clear],
+            Action::Suspend => return vec![Effect::Suspend],
             _ => {}
         }
         vec![]
@@ -123,7 +124,7 @@ impl App {
             Thing::Study(name) => state.open_study(name),
             Thing::Subject(name) => screens.subjects.chosen = Some(name),
             Thing::Size(style, size) => screens.styles.selected = Some((style, size)),
-            Thing::Fabric(name) => screens.fabrics.chosen = Some(name),
+            Thing::Fabric(name) => (screens.fabrics.chosen, screens.fabrics.is_picked) = (Some(name), true),
         }
     }
 
@@ -141,8 +142,7 @@ impl App {
         let Some(Copied { name, text }) = screens.page(state.nav.screen).copied(state) else {
             return state.reply("nothing to copy here");
         };
-        state.say(format!("copied {name}"));
-        vec![Effect::Copy(text)]
+        state.copy(name, text)
     }
 
     /// Undoes the first of these that there is: filter, enlargement, change of screen. Returns false where there is
@@ -165,11 +165,15 @@ impl App {
     fn quit(&mut self) -> Vec<Effect> {
         let Self { state, screens } = self;
         let unsaved = screens.styles.unsaved();
-        if state.running.target.is_some() {
-            state.ask(
-                "A run goes on here. Stop it and leave? Unfinished jobs go back to the queue.",
-                vec![Effect::StopRun, Effect::Quit],
+        if let Some(target) = state.running.target.clone() {
+            let seams = if unsaved.is_empty() { String::new() } else { format!(" Seams of {unsaved} are not saved.") };
+            let text = format!(
+                "A run goes on here. It can stop, and its unfinished jobs go back to the queue; or another process goes \
+                on with it, and begins anew only what is in work.{seams}"
             );
+            let stop = Answer { key: 's', label: "stop it", effects: vec![Effect::StopRun, Effect::Quit] };
+            let leave = Answer { key: 'l', label: "leave it running", effects: vec![Effect::LeaveRunning(target)] };
+            state.offer(text, vec![leave, stop]);
         } else if unsaved.is_empty() {
             return vec![Effect::Quit];
         } else {
@@ -195,7 +199,8 @@ fn movement(state: &State, action: Action) -> Option<Movement> {
 
 fn take_mouse(state: &mut State) -> Vec<Effect> {
     let is_taken = !state.terminal.has_mouse;
-    state.terminal.has_mouse = is_taken;
-    state.say(if is_taken { "the mouse is taken: tabs, wheel" } else { "the mouse is the terminal's" });
+    (state.terminal.has_mouse, state.terminal.chosen_mouse) = (is_taken, Some(is_taken));
+    let taken = "the mouse is taken: click, wheel; with Shift the terminal selects text";
+    state.say(if is_taken { taken } else { "the mouse is the terminal's: it selects text" });
     vec![Effect::Mouse(is_taken)]
 }

@@ -81,10 +81,14 @@ impl App {
     /// Handles the end of the run that was started here.
     pub fn run_ended(&mut self, outcome: Result<String, String>) -> Vec<Effect> {
         self.state.running.target = None;
+        let (Ok(text) | Err(text)) = &outcome;
+        let text = text.clone();
+        // The line fades; the log keeps it.
+        self.state.told.commands.push(format!("# the run has ended: {text}"));
         match outcome {
-            Ok(text) => self.state.say(text),
+            Ok(text) => self.state.say(format!("the run has ended: {text}")),
             Err(text) => self.state.complain(text),
         }
-        if self.state.terminal.detached { vec![Effect::Quit] } else { vec![] }
+        if self.state.terminal.detached { vec![Effect::Quit] } else { vec![Effect::Notify(text)] }
     }
 }

@@ -2,6 +2,7 @@
 
 mod act;
 mod answers;
+pub mod fading;
 pub mod frame;
 pub mod headless;
 pub mod session;

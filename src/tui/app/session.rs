@@ -2,13 +2,16 @@
 //! file in the state folder. A file that cannot be read gives a fresh start, not an error.
 
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use crate::app::App;
+use crate::config::Env;
 use crate::keys::screen::Screen;
 use crate::screens::fabrics::state::FabricOrder;
 use crate::screens::jobs::state::JobOrder;
 use crate::screens::measurements::state::ChiOrder;
 use crate::screens::order::Order;
+use crate::screens::sql::state::Queries;
 use crate::screens::subjects::state::SubjectOrder;
 use store::JobId;
 
@@ -28,6 +31,7 @@ pub struct Session {
     size: Option<(String, String)>,
     marks: Vec<i64>,
     filters: Vec<String>,
+    second_pane: Vec<bool>,
     subject_order: Order<SubjectOrder>,
     fabric_order: Order<FabricOrder>,
     job_order: Order<JobOrder>,
@@ -36,8 +40,8 @@ pub struct Session {
     sorts_contrasts: bool,
     differences_only: bool,
     chosen_ascii: Option<bool>,
-    has_mouse: Option<bool>,
-    query: String,
+    chosen_mouse: Option<bool>,
+    queries: Queries,
     history: Vec<String>,
 }
 
@@ -56,6 +60,7 @@ impl Session {
             size: screens.styles.selected.clone(),
             marks: state.marks.iter().map(|job| job.0).collect(),
             filters: state.nav.filters.to_vec(),
+            second_pane: state.nav.second_pane.to_vec(),
             subject_order: screens.subjects.order,
             fabric_order: screens.fabrics.order,
             job_order: screens.jobs.order,
@@ -64,8 +69,8 @@ impl Session {
             sorts_contrasts: screens.compare.sorts_by_difference,
             differences_only: screens.compare.differences_only,
             chosen_ascii: state.terminal.chosen_ascii,
-            has_mouse: Some(state.terminal.has_mouse),
-            query: screens.sql.editor.text().to_owned(),
+            chosen_mouse: state.terminal.chosen_mouse,
+            queries: screens.sql.queries(),
             history: screens.sql.history.clone(),
         }
     }
@@ -81,6 +86,10 @@ impl Session {
         for (filter, kept) in state.nav.filters.iter_mut().zip(self.filters) {
             *filter = kept;
         }
+        for (pane, kept) in state.nav.second_pane.iter_mut().zip(self.second_pane) {
+            *pane = kept;
+        }
+        state.nav.second_pane[Screen::Sql as usize] = true;
         (screens.subjects.order, screens.jobs.order, state.measurements.order) =
             (self.subject_order, self.job_order, self.chi_order);
         screens.fabrics.order = self.fabric_order;
@@ -88,8 +97,9 @@ impl Session {
         screens.compare.differences_only = self.differences_only;
         state.terminal.chosen_ascii = self.chosen_ascii;
         state.theme.ascii |= self.chosen_ascii == Some(true);
-        state.terminal.has_mouse = self.has_mouse.unwrap_or(state.terminal.has_mouse);
-        screens.sql.editor.set(&self.query);
+        state.terminal.chosen_mouse = self.chosen_mouse;
+        state.terminal.has_mouse = self.chosen_mouse.unwrap_or(state.terminal.has_mouse);
+        screens.sql.take_queries(self.queries);
         screens.sql.history = self.history;
     }
 
@@ -109,9 +119,61 @@ impl Session {
     }
 }
 
+/// Time after a key after which the session is written, so that a crash loses no more than that.
+const REST: Duration = Duration::from_secs(1);
+
+/// Writer of the session while the workbench is used.
+pub struct Keeper {
+    path: Option<PathBuf>,
+    written: Session,
+    due: Option<Instant>,
+}
+
+impl Keeper {
+    /// A keeper of the session in a file, as it is there; `None` keeps nothing.
+    #[must_use]
+    pub fn new(path: Option<PathBuf>, written: Session) -> Self {
+        Self { path, written, due: None }
+    }
+
+    /// Folder of the session's file.
+    #[must_use]
+    pub fn folder(&self) -> Option<&Path> {
+        self.path.as_deref()?.parent()
+    }
+
+    /// Notes that the user did something.
+    pub fn touch(&mut self) {
+        self.due.get_or_insert_with(|| Instant::now() + REST);
+    }
+
+    /// Time until the session is to be written; `None` where it need not be.
+    #[must_use]
+    pub fn left(&self) -> Option<Duration> {
+        self.due.map(|due| due.saturating_duration_since(Instant::now()))
+    }
+
+    /// Writes the session if that is due.
+    pub fn keep_in_time(&mut self, app: &App) {
+        if self.left().is_some_and(|left| left.is_zero()) {
+            self.keep(app);
+        }
+    }
+
+    /// Writes the session if it has changed.
+    pub fn keep(&mut self, app: &App) {
+        self.due = None;
+        let session = Session::of(app);
+        if let Some(path) = self.path.as_deref().filter(|_| session != self.written) {
+            session.write(path);
+            self.written = session;
+        }
+    }
+}
+
 /// Path of the session of a database: in `toile` of the state folder.
 #[must_use]
-pub fn path(database: &Path, env: &dyn Fn(&str) -> Option<String>) -> Option<PathBuf> {
+pub fn path(database: &Path, env: &Env<'_>) -> Option<PathBuf> {
     let set = |name: &str| env(name).filter(|value| !value.is_empty()).map(PathBuf::from);
     let folder = set("XDG_STATE_HOME").or_else(|| set("HOME").map(|home| home.join(".local").join("state")))?;
     let path = std::path::absolute(database).unwrap_or_else(|_| database.to_owned());
@@ -130,7 +192,8 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("state/x.json");
         assert_eq!(Session::read(&path), Session::default());
-        let session = Session { screen: 3, query: "SELECT 1".into(), ..Session::default() };
+        let queries = Queries { texts: vec!["SELECT 1".into()], at: 0 };
+        let session = Session { screen: 3, queries, ..Session::default() };
         session.write(&path);
         assert_eq!(Session::read(&path), session);
         std::fs::write(&path, "{\"screen\": 2, \"new\": []").expect("writable");

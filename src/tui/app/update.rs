@@ -1,7 +1,7 @@
 //! The only place where messages change the state: `(state, message) -> (state, effects)`. Nothing here waits.
 
 use crossterm::event::{KeyEvent, KeyEventKind, MouseButton, MouseEvent, MouseEventKind};
-use ratatui::layout::Size;
+use ratatui::layout::{Position, Size};
 
 use crate::app::App;
 use crate::app::frame::{keys_of, tab_at};
@@ -20,6 +20,7 @@ use crate::screens::fit::actions::wearer;
 use crate::screens::measurements;
 use crate::screens::picture_pane::actions::watch;
 use crate::screens::study::actions::study_created;
+use crate::widgets::jump::hit;
 
 impl App {
     /// Handles a message. Returns the effects that it asks for.
@@ -80,6 +81,12 @@ impl App {
             Message::StudyCreated(name, outcome) => study_created(state, &name, outcome),
             Message::Live(frame) if state.running.watched == Some(frame.job) => state.running.live = Some(frame),
             Message::Live(_) => {}
+            Message::Copied(Ok(place)) => {
+                let text = format!("copied {}: {place}", state.told.copying);
+                state.say(text);
+            }
+            Message::Copied(Err(text)) => state.complain(text),
+            Message::Faded => state.told.notice = None,
             Message::RunEnded(outcome) => return self.run_ended(outcome),
             Message::Hangup if state.running.target.is_some() => state.terminal.detached = true,
             Message::Hangup => return vec![Effect::Quit],
@@ -95,12 +102,19 @@ impl App {
         state.focus.compare = if screen == Screen::Compare { to_compare(state) } else { vec![] };
         state.focus.wearer = wearer(state).filter(|_| screen == Screen::Fit).cloned();
         state.in_hand.subject = screens.subjects.selected(state).map(|row| row.id);
-        state.in_hand.fabric.clone_from(&screens.fabrics.chosen);
+        state.in_hand.fabric = screens.styles.cloth(state).cloned();
+        if screens.fabrics.is_picked {
+            state.in_hand.fabric.clone_from(&screens.fabrics.chosen);
+        }
     }
 
     fn key(&mut self, event: &KeyEvent) -> Vec<Effect> {
         if event.kind == KeyEventKind::Release {
             return vec![];
+        }
+        // Ctrl-Z means the same everywhere, as in every program of a shell.
+        if action_of(self.state.setup.bindings, Key::of(event), keys_of(self)) == Some(Action::Suspend) {
+            return self.act(Action::Suspend);
         }
         let Self { state, screens } = self;
         let Some(mut overlay) = state.overlay.take() else {
@@ -119,9 +133,7 @@ impl App {
             Outcome::Closed => {}
             Outcome::Action(action) => return self.act(action),
             Outcome::Effects(effects) => {
-                if effects.iter().any(|effect| matches!(effect, Effect::Copy(_))) {
-                    state.say("copied");
-                }
+                state.told.copying = "what was done".to_owned();
                 return effects;
             }
             Outcome::Thing(thing) => self.look_at(thing),
@@ -165,7 +177,7 @@ impl App {
         measurements::clamp(state);
     }
 
-    /// Handles the mouse: a click on a tab shows its screen, the wheel scrolls.
+    /// Handles the mouse: a click on a tab shows its screen, on a row, cell or pane goes there; the wheel scrolls.
     fn mouse(&mut self, event: &MouseEvent) -> Vec<Effect> {
         match event.kind {
             _ if self.state.overlay.is_some() => vec![],
@@ -173,6 +185,14 @@ impl App {
             MouseEventKind::ScrollDown => self.act(Action::Down),
             MouseEventKind::Down(MouseButton::Left) if event.row == 0 => {
                 tab_at(&self.state, event.column).map_or(vec![], |screen| self.act(Action::Show(screen)))
+            }
+            MouseEventKind::Down(MouseButton::Left) => {
+                let Self { state, screens } = self;
+                let targets = screens.page(state.nav.screen).targets(state, state.body());
+                if let Some(goal) = hit(&targets, Position::new(event.column, event.row)) {
+                    self.jump(goal);
+                }
+                vec![]
             }
             _ => vec![],
         }

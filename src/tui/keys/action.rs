@@ -66,8 +66,12 @@ pub enum Action {
     ZoomIn,
     /// Zooms out of the picture.
     ZoomOut,
-    /// Marks the job for a comparison, or takes the mark away.
+    /// Marks the row, or takes the mark away.
     Mark,
+    /// Marks the rows from the one that was marked last.
+    MarkRange,
+    /// Marks all shown rows, or takes their marks away.
+    MarkAll,
     /// Takes all marks away.
     Unmark,
     /// Shows the cross section at the next level.
@@ -90,6 +94,8 @@ pub enum Action {
     NewStudy,
     /// Begins typing in the query.
     EditQuery,
+    /// Begins a new query beside the others.
+    NewQuery,
     /// Saves the query under a name.
     SaveQuery,
     /// Lists the saved queries.
@@ -172,6 +178,8 @@ pub enum Action {
     Commands,
     /// Draws the whole screen again.
     Redraw,
+    /// Gives the terminal back to the shell until that continues the program.
+    Suspend,
     /// Leaves the program.
     Quit,
 }

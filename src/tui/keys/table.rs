@@ -33,6 +33,11 @@ const fn bind(
 /// Screens on which a job is selected.
 const RESULTS: &[Screen] = &[Study, Jobs, Results];
 
+/// Screens with rows that can be selected; those with lists of them; those where all selections can be taken back.
+const MARKED: &[Screen] = &[Study, Jobs, Results, Subjects, Fabrics];
+const LISTED: &[Screen] = &[Study, Jobs, Subjects, Fabrics];
+const UNMARKED: &[Screen] = &[Study, Jobs, Results, Compare, Subjects, Fabrics];
+
 /// Screens with lists that can be sorted.
 const SORTED: &[Screen] = &[Study, Subjects, Fabrics, Jobs, Results, Compare, Sql, Reports];
 
@@ -177,8 +182,8 @@ pub const BINDINGS: &[Binding] = &[
         "Remove the selected size, the last with its style",
     ),
     bind(Action::Pause, "pause", &[ch('p')], &[Study, Jobs], "pause", "Pause or resume the study; running jobs go on"),
-    bind(Action::Cancel, "cancel", &[ch('x')], RESULTS, "cancel", "Cancel the selected queued or running job; asks"),
-    bind(Action::Retry, "retry", &[ch('r')], RESULTS, "retry", "Queue the selected failed or cancelled job again"),
+    bind(Action::Cancel, "cancel", &[ch('x')], RESULTS, "cancel", "Cancel the selected queued or running jobs; asks"),
+    bind(Action::Retry, "retry", &[ch('r')], RESULTS, "retry", "Queue the selected failed or cancelled jobs again"),
     bind(
         Action::OpenReport,
         "open-report",
@@ -198,7 +203,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(
         Action::EditQuery,
         "edit-query",
-        &[ch('e'), key(KeyCode::Enter)],
+        &[ch('e'), ch('i'), key(KeyCode::Enter)],
         &[Sql],
         "edit",
         "Type in the query; Esc leaves it",
@@ -211,13 +216,16 @@ pub const BINDINGS: &[Binding] = &[
         "run",
         "Run the study in the background; on SQL, the query",
     ),
+    bind(Action::NewQuery, "new-query", &[ch('a')], &[Sql], "new", "Begin a query beside the others; ] and [ change"),
     bind(Action::SavedQueries, "saved-queries", &[ch('o')], &[Sql], "saved", "Choose a saved query"),
-    bind(Action::ExportQuery, "export-query", &[ch('w')], &[Sql], "export", "Write all rows of the query: CSV or JSON"),
+    bind(Action::ExportQuery, "export-query", &[ch('w')], &[Sql], "export", "Write all rows: CSV, JSON or Parquet"),
     bind(Action::SaveQuery, "save-query", &[ch('W')], &[Sql], "", "Save the query under a name"),
     bind(Action::OlderQuery, "older-query", &[ctrl('p')], &[Sql], "", "The query before, of the history"),
     bind(Action::NewerQuery, "newer-query", &[ctrl('n')], &[Sql], "", "The query after, of the history"),
     bind(Action::NewStudy, "new-study", &[ch('a')], &[Study], "new", "Make a study: subjects, styles, sizes, fabric"),
-    bind(Action::Mark, "select", &[ch(' ')], RESULTS, "select", "Select the job for a comparison, or no longer"),
+    bind(Action::Mark, "select", &[ch(' ')], MARKED, "select", "Select the row for x, r, d or a comparison, or not"),
+    bind(Action::MarkRange, "select-range", &[ch('V')], LISTED, "", "Select the rows from the one selected last"),
+    bind(Action::MarkAll, "select-all", &[ch('*')], LISTED, "", "Select all shown rows, or none of them"),
     bind(
         Action::Show(Compare),
         "compare",
@@ -240,7 +248,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::WriteChange, "write-change", &[ch('w')], &[Fit], "", "Write the changed pattern, seams and a sheet"),
     bind(Action::LargerSize, "larger-size", &[ch('+'), ch('=')], &[Fit], "", "Change the next larger size instead"),
     bind(Action::SmallerSize, "smaller-size", &[ch('-')], &[Fit], "", "Change the next smaller size instead"),
-    bind(Action::Unmark, "unselect", &[ch('u')], &[Study, Jobs, Results, Compare], "", "Take all selections back"),
+    bind(Action::Unmark, "unselect", &[ch('u')], UNMARKED, "", "Take all selections back"),
     bind(
         Action::Differences,
         "differences",
@@ -338,14 +346,14 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Show(Sql), "sql", &[ch('7')], &[], "", "Screen 7: questions in SQL"),
     bind(Action::Show(Reports), "reports", &[ch('8')], &[], "", "Screen 8: the reports that were built"),
     bind(Action::Show(Fabrics), "fabrics", &[ch('9')], &[], "", "Screen 9: the fabrics, their numbers and sources"),
-    bind(Action::NextGarment, "next-garment", &[ch(']')], &[], "", "Next garment of the study"),
-    bind(Action::PreviousGarment, "previous-garment", &[ch('[')], &[], "", "Garment before"),
+    bind(Action::NextGarment, "next-garment", &[ch(']')], &[], "", "Next garment of the study; on SQL, the next query"),
+    bind(Action::PreviousGarment, "previous-garment", &[ch('[')], &[], "", "Garment or query before"),
     bind(Action::NextStudy, "next-study", &[ch('}')], &[], "", "Next study"),
     bind(Action::NextMatch, "next-match", &[ch('n')], &[], "", "Next match of the filter"),
     bind(Action::PreviousMatch, "previous-match", &[ch('N')], &[], "", "Match before"),
     bind(Action::Raise, "raise", &[ch('+')], &[Jobs], "", "Have the selected job run earlier"),
     bind(Action::Lower, "lower", &[ch('-')], &[Jobs], "", "Have the selected job run later"),
-    bind(Action::Copy, "copy", &[ch('y')], &[], "", "Copy the line or the table (OSC 52, over SSH too)"),
+    bind(Action::Copy, "copy", &[ch('y')], &[], "", "Copy the line or the table, over SSH too"),
     bind(
         Action::Write,
         "edit-text",
@@ -357,8 +365,9 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Tour, "tour", &[ch('T')], &[], "", "Six screens on the results, a few words on each"),
     bind(Action::Commands, "commands", &[ch('L')], &[], "", "Log of what was done here, as commands to copy"),
     bind(Action::Redraw, "redraw", &[ctrl('l')], &[], "", "Draw everything anew"),
+    bind(Action::Suspend, "suspend", &[ctrl('z')], &[], "", "Back to the shell; its fg goes on here"),
     bind(Action::Ascii, "ascii", &[key(KeyCode::F(2))], &[], "", "Plain ASCII instead of lines and signs, or back"),
-    bind(Action::Mouse, "mouse", &[key(KeyCode::F(3))], &[], "", "Take the mouse for tabs and scrolling, or not"),
+    bind(Action::Mouse, "mouse", &[key(KeyCode::F(3))], &[], "", "Take the mouse: click and wheel; or not"),
     bind(Action::Back, "back", &[key(KeyCode::Esc)], &[], "", "Close, clear the filter, go back a screen"),
     bind(Action::Leave, "leave", &[ch('q')], &[], "", "Go back; at the top, quit"),
     bind(Action::Quit, "quit", &[ctrl('c')], &[], "", "Cancel a query; else leave; asks while a run goes on"),

@@ -52,6 +52,12 @@ pub enum Effect {
     Run(Target),
     /// Ask the run to stop.
     StopRun,
+    /// Leave the workbench, and let a process of its own go on with the run.
+    LeaveRunning(Target),
+    /// Ring, and notify a user who looks elsewhere.
+    Notify(String),
+    /// Give the terminal back until the shell continues the program.
+    Suspend,
     /// Open a text in the user's editor.
     Write(Writing),
     /// Copy a text to the clipboard.

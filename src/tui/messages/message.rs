@@ -65,6 +65,10 @@ pub enum Message {
     Mouse(MouseEvent),
     /// Run that was started here has ended.
     RunEnded(Result<String, String>),
+    /// A text was copied, with its place in words, or the reason why not.
+    Copied(Result<String, String>),
+    /// The message in the status line was there for long enough.
+    Faded,
     /// The terminal is gone.
     Hangup,
     /// The process is asked to end.

@@ -23,10 +23,10 @@ pub enum Command {
     SaveSeams(String, SourceFile),
     /// Write seams to a file whose contents are still those given first.
     WriteSeams(PathBuf, SourceFile, SourceFile),
-    /// Cancel a job.
-    Cancel(JobId),
-    /// Queue a job again.
-    Retry(JobId),
+    /// Cancel jobs.
+    Cancel(Vec<JobId>),
+    /// Queue jobs again.
+    Retry(Vec<JobId>),
     /// Change the priority of a job by a step.
     Prioritise(JobId, i64),
     /// Pause a study.

@@ -1,9 +1,12 @@
 //! Data of the database at one moment, for all screens.
 
+use std::collections::BTreeMap;
+
 use engine::Why;
 use results::GarmentWorn;
 use sim::Step;
 use spec::Inputs;
+use store::owner::Runner;
 use store::{
     Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobRow, LogLine, MetricsRow, RecommendationRow, StageRow, StudyRow,
 };
@@ -40,6 +43,8 @@ pub struct Place {
 pub struct Snapshot {
     /// Time of the reading, ms since 1970 (UTC).
     pub now_ms: i64,
+    /// Offset of the machine's local time from UTC at that time, ms.
+    pub offset_ms: i64,
     /// The subjects of the catalogue, by name.
     pub subjects: Vec<SubjectRow>,
     /// The fabrics of the catalogue, by name.
@@ -50,6 +55,10 @@ pub struct Snapshot {
     pub studies: Vec<StudyRow>,
     /// Index of the shown study in `studies`.
     pub study: usize,
+    /// Processes that run jobs of the shown study.
+    pub runners: Vec<Runner>,
+    /// Fabric of each garment of the shown study, by name.
+    pub cloths: BTreeMap<String, String>,
     /// Shown garment as a grid; `None` without a study.
     pub grid: Option<Grid>,
     /// Current jobs of the study.
@@ -77,6 +86,12 @@ impl Snapshot {
     #[must_use]
     pub fn job(&self, id: JobId) -> Option<&JobRow> {
         self.jobs.iter().find(|job| job.id == id)
+    }
+
+    /// Jobs by their numbers, without those that are gone.
+    #[must_use]
+    pub fn jobs_of<'a>(&'a self, ids: impl Iterator<Item = &'a JobId>) -> Vec<&'a JobRow> {
+        ids.filter_map(|id| self.job(*id)).collect()
     }
 
     /// Shown grid; `None` where it has no size or no subject.

@@ -4,8 +4,9 @@ use std::path::Path;
 
 use crate::messages::effect::Effect;
 use crate::messages::requests::{Command, FileTask, QueryRequest, Target};
-use crate::widgets::text::quoted;
 use engine::NewStudy;
+use store::JobId;
+use store::files::word;
 use wardrobe::seams::{SeamEdit, SeamStep};
 use wardrobe::{Mode, Part, StyleGiven};
 
@@ -16,11 +17,11 @@ pub fn command(effect: &Effect) -> Option<String> {
         Effect::Do(command) => of_command(command),
         Effect::Run(Target::Study(path)) => Some(format!("toile run {}", shown(path))),
         Effect::Run(Target::Quickstart) => Some("toile run quickstart".to_owned()),
-        Effect::Files(FileTask::BuildReport(study)) => Some(format!("toile report {}", quoted(study))),
+        Effect::Files(FileTask::BuildReport(study)) => Some(format!("toile report {}", word(study))),
         Effect::Files(FileTask::CreateStudy(new)) => Some(new_study(new)),
         Effect::Query(QueryRequest::Save(_, name)) => Some(format!("# saved the query {name}")),
         Effect::Query(QueryRequest::Rename(from, to)) => Some(format!("# renamed the query {from} to {to}")),
-        Effect::Query(QueryRequest::Rows(sql)) => Some(format!("toile sql {}", quoted(sql))),
+        Effect::Query(QueryRequest::Rows(sql)) => Some(format!("toile sql {}", word(sql))),
         _ => None,
     }
 }
@@ -40,7 +41,7 @@ pub fn is_awaited(effect: &Effect) -> bool {
 fn shown(path: &Path) -> String {
     let here = std::env::current_dir().ok();
     let inside = here.as_deref().and_then(|here| path.strip_prefix(here).ok());
-    quoted(&inside.unwrap_or(path).to_string_lossy())
+    word(&inside.unwrap_or(path).to_string_lossy())
 }
 
 fn of_command(command: &Command) -> Option<String> {
@@ -48,23 +49,28 @@ fn of_command(command: &Command) -> Option<String> {
     Some(match command {
         Command::Save(part, mode, name, given) => {
             let deed = if *mode == Mode::Add { "add" } else { "edit" };
-            let flags = given.iter().map(|(key, value)| format!(" --{} {}", key.replace('_', "-"), quoted(value)));
-            format!("toile {} {deed} {}{}", part_of(part), quoted(name), flags.collect::<String>())
+            let flags = given.iter().map(|(key, value)| format!(" --{} {}", key.replace('_', "-"), word(value)));
+            format!("toile {} {deed} {}{}", part_of(part), word(name), flags.collect::<String>())
         }
         Command::Import(part, path) => {
             format!("toile {} import {}", part_of(part), shown(path))
         }
-        Command::Remove(part, name) => format!("toile {} rm {}", part_of(part), quoted(name)),
+        Command::Remove(part, name) => format!("toile {} rm {}", part_of(part), word(name)),
         Command::ImportStyle(name, given) => style(name, given),
         // Each step of work adds its own command when the seams are saved.
         Command::SaveSeams(..) => return None,
         Command::WriteSeams(path, ..) => format!("# wrote {}", path.display()),
-        Command::Cancel(job) => format!("toile queue cancel {job}"),
-        Command::Retry(job) => format!("toile queue retry {job}"),
+        Command::Cancel(jobs) => format!("toile queue cancel{}", numbers(jobs)),
+        Command::Retry(jobs) => format!("toile queue retry{}", numbers(jobs)),
         Command::Prioritise(job, step) => format!("# priority of {job} by {step:+}"),
-        Command::Pause(study) => format!("toile queue pause {}", quoted(study)),
-        Command::Resume(study) => format!("toile queue resume {}", quoted(study)),
+        Command::Pause(study) => format!("toile queue pause {}", word(study)),
+        Command::Resume(study) => format!("toile queue resume {}", word(study)),
     })
+}
+
+/// Numbers of jobs as words of a command line.
+fn numbers(jobs: &[JobId]) -> String {
+    jobs.iter().map(|job| format!(" {job}")).collect()
 }
 
 fn style(name: &str, given: &StyleGiven) -> String {
@@ -74,40 +80,40 @@ fn style(name: &str, given: &StyleGiven) -> String {
     {
         return format!("toile style import {}", shown(path));
     }
-    let mut text = format!("toile style add {}", quoted(name));
+    let mut text = format!("toile style add {}", word(name));
     for (size, path) in &given.patterns {
         let path = path.to_string_lossy();
         let pattern = size.as_ref().map_or_else(|| path.to_string(), |size| format!("{size}={path}"));
-        text += &format!(" --pattern {}", quoted(&pattern));
+        text += &format!(" --pattern {}", word(&pattern));
     }
     if let Some(seams) = &given.seams {
         text += &format!(" --seams {}", shown(seams));
     } else if given.is_proposed {
         text += " --propose";
     }
-    text += &given.unit.as_ref().map_or_else(String::new, |unit| format!(" --unit {}", quoted(unit)));
+    text += &given.unit.as_ref().map_or_else(String::new, |unit| format!(" --unit {}", word(unit)));
     text
 }
 
 fn new_study(new: &NewStudy) -> String {
     let mut text = format!("toile study new {}", shown(&new.folder.join(&new.name)));
-    new.subjects.iter().for_each(|subject| text += &format!(" --subject {}", quoted(subject)));
+    new.subjects.iter().for_each(|subject| text += &format!(" --subject {}", word(subject)));
     for size in &new.sizes {
-        text += &format!(" --wear {}", quoted(&format!("{}/{}", size.style, size.size)));
+        text += &format!(" --wear {}", word(&format!("{}/{}", size.style, size.size)));
     }
     new.simulators.iter().for_each(|simulator| text += &format!(" --sim {}", simulator.as_str()));
     new.fit.iter().for_each(|fit| text += &format!(" --fit {}", fit.as_str()));
-    text + &format!(" --fabric {}", quoted(&new.fabric))
+    text + &format!(" --fabric {}", word(&new.fabric))
 }
 
 /// Command for a step of work on the seams of a size, `STYLE/SIZE`.
 #[must_use]
 pub fn sewn(size: &str, step: &SeamStep) -> String {
-    let told = |words: &[&str]| words.iter().map(|word| format!(" {}", quoted(word))).collect::<String>();
+    let told = |words: &[&str]| words.iter().map(|told| format!(" {}", word(told))).collect::<String>();
     let words = match step {
         SeamStep::Written(_) => return format!("# the seams of {size} were written by hand"),
         SeamStep::Edit(SeamEdit::Add { a, b, name, is_eased }) => {
-            let name = name.as_ref().map_or_else(String::new, |name| format!(" --name {}", quoted(name)));
+            let name = name.as_ref().map_or_else(String::new, |name| format!(" --name {}", word(name)));
             told(&["add", a, b]) + &name + if *is_eased { " --eased" } else { "" }
         }
         SeamStep::Edit(SeamEdit::Remove { a, b }) => told(&["rm", a, b]),
@@ -127,5 +133,5 @@ pub fn sewn(size: &str, step: &SeamStep) -> String {
         SeamStep::Decide(question) => told(&["settle", question]),
         SeamStep::Propose(_) => told(&["propose"]),
     };
-    format!("toile style sew {}{words}", quoted(size))
+    format!("toile style sew {}{words}", word(size))
 }

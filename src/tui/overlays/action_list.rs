@@ -112,7 +112,8 @@ impl List {
 
     /// Handles a key: edits the text or moves among the rows.
     pub fn edit(&mut self, event: &KeyEvent) {
-        in_list(&mut self.text, &mut self.row, event);
+        let rows = self.rows().len();
+        in_list(&mut self.text, &mut self.row, rows, event);
         self.row = self.row.min(self.rows().len().saturating_sub(1));
     }
 }

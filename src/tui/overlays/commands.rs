@@ -13,6 +13,7 @@ use crate::widgets::layout::middle;
 use crate::widgets::lists::pane;
 use crate::widgets::text::wrapped;
 use crate::widgets::theme::Theme;
+use crate::widgets::typing::moved;
 
 /// The log, with a selected line.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -37,14 +38,9 @@ impl CommandLog {
                 return Outcome::Effects(self.commands.get(self.row).cloned().map(Effect::Copy).into_iter().collect());
             }
             KeyCode::Char('Y') => return Outcome::Effects(vec![Effect::Copy(self.commands.join("\n") + "\n")]),
-            KeyCode::Char('k') | KeyCode::Up => self.row = self.row.saturating_sub(1),
-            KeyCode::Char('j') | KeyCode::Down => self.row += 1,
-            KeyCode::Char('g') | KeyCode::Home => self.row = 0,
-            KeyCode::Char('G') | KeyCode::End => self.row = self.commands.len(),
             KeyCode::Char('q') => return Outcome::Closed,
-            _ => {}
+            _ => self.row = moved(self.row, self.commands.len(), event, true).unwrap_or(self.row),
         }
-        self.row = self.row.min(self.commands.len().saturating_sub(1));
         Outcome::Open
     }
 }

@@ -1,6 +1,6 @@
 //! Form for the values of a subject or a fabric, checked while they are typed.
 
-use crossterm::event::{KeyCode, KeyEvent};
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
@@ -12,7 +12,7 @@ use crate::overlays::outcome::Outcome;
 use crate::widgets::lists::first_shown;
 use crate::widgets::text::{self, left, right, shortened};
 use crate::widgets::theme::Theme;
-use crate::widgets::typing::edit;
+use crate::widgets::typing::{edit, moved};
 use geom::units::significant;
 use spec::bodies::Sex;
 use spec::{FABRIC_NUMBERS, Given, MEASUREMENTS, sex};
@@ -205,6 +205,8 @@ impl Form {
             _ if is_done(event, self.at + 1 == self.texts.len()) => return self.save(),
             KeyCode::Enter | KeyCode::Tab | KeyCode::Down => self.step(1),
             KeyCode::BackTab | KeyCode::Up => self.step(self.texts.len() - 1),
+            KeyCode::PageUp | KeyCode::PageDown | KeyCode::Home | KeyCode::End => self.go(event),
+            KeyCode::Char('d') if event.modifiers.contains(KeyModifiers::CONTROL) => self.go(event),
             KeyCode::Left | KeyCode::Right | KeyCode::Char(' ') if self.at == WORD && self.part == Part::Subject => {
                 let other = if self.sex() == Some(Sex::Female) { "male" } else { "female" };
                 self.texts[WORD] = other.to_owned();
@@ -214,6 +216,12 @@ impl Form {
             }
         }
         Outcome::Open
+    }
+
+    /// Moves as in any list, but not to a line that cannot be edited.
+    fn go(&mut self, event: &KeyEvent) {
+        let next = moved(self.at, self.texts.len(), event, false);
+        self.at = next.map_or(self.at, |next| if self.is_open(next) { next } else { next + 1 });
     }
 
     /// Moves by some lines, from the last on to the first, and past a line that cannot be edited.

@@ -68,7 +68,8 @@ impl Explanation {
 
     /// Handles a key: moves among the terms or narrows them.
     pub fn key(&mut self, event: &KeyEvent) {
-        in_list(&mut self.text, &mut self.row, event);
+        let rows = self.rows().len();
+        in_list(&mut self.text, &mut self.row, rows, event);
         self.row = self.row.min(self.rows().len().saturating_sub(1));
     }
 }

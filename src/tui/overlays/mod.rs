@@ -64,13 +64,24 @@ pub enum Overlay {
     Commands(CommandLog),
     /// The tour of the workbench, at a step.
     Tour(Tour),
-    /// A question; `y` carries out its effects.
+    /// A question with its answers.
     Question {
         /// Text of the question.
         text: String,
-        /// Effects of a yes.
-        effects: Vec<Effect>,
+        /// Answers, each with its key.
+        answers: Vec<Answer>,
     },
+}
+
+/// An answer to a question.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answer {
+    /// Key that gives the answer, in lower or upper case.
+    pub key: char,
+    /// Label of the answer.
+    pub label: &'static str,
+    /// Effects of the answer.
+    pub effects: Vec<Effect>,
 }
 
 impl Overlay {
@@ -94,7 +105,7 @@ impl Overlay {
             Self::Queries(list) => saved_queries::draw(frame, area, list, theme),
             Self::Commands(log) => commands::draw(frame, area, log, theme),
             Self::Tour(tour) => tour::draw(frame, area, *tour, theme),
-            Self::Question { text, .. } => draw_question(frame, area, text, theme),
+            Self::Question { text, answers } => draw_question(frame, area, text, answers, theme),
             Self::Filter(_) => {}
         }
     }
@@ -136,23 +147,25 @@ impl Overlay {
                 edit(filter, event);
                 Outcome::Open
             }
-            Self::Question { effects, .. } => match event.code {
-                KeyCode::Char('y' | 'Y') => Outcome::Effects(std::mem::take(effects)),
-                _ => Outcome::Closed,
-            },
+            Self::Question { answers, .. } => {
+                let is_given = |answer: &&mut Answer| matches!(event.code, KeyCode::Char(key) if key.eq_ignore_ascii_case(&answer.key));
+                let given = answers.iter_mut().find(is_given);
+                given.map_or(Outcome::Closed, |answer| Outcome::Effects(std::mem::take(&mut answer.effects)))
+            }
         }
     }
 }
 
-fn draw_question(frame: &mut Frame<'_>, area: Rect, text: &str, theme: Theme) {
+fn draw_question(frame: &mut Frame<'_>, area: Rect, text: &str, answers: &[Answer], theme: Theme) {
     let width = area.width.min(60);
     let rows = text.chars().count() as u16 / width.saturating_sub(4).max(1) + 5;
+    let keys = answers.iter().flat_map(|answer| {
+        [Span::styled(answer.key.to_string(), theme.bold()), Span::raw(format!(" {}    ", answer.label))]
+    });
+    let keys = Line::from_iter(keys.chain([Span::raw("any other key: no")]));
+    let rows = rows + keys.width() as u16 / width.saturating_sub(2).max(1);
     let place = middle(area, width, rows.min(area.height));
-    let lines = vec![
-        Line::raw(text.to_owned()),
-        Line::raw(""),
-        Line::from(vec![Span::styled("y", theme.bold()), Span::raw(" yes    any other key: no")]),
-    ];
+    let lines = vec![Line::raw(text.to_owned()), Line::raw(""), keys];
     let block = pane(theme, "sure?", true).border_style(theme.warn());
     frame.render_widget(Clear, place);
     frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }).block(block), place);
@@ -220,12 +233,16 @@ mod tests {
     }
 
     #[test]
-    fn only_yes_is_yes() {
-        let question = || Overlay::Question { text: "?".into(), effects: vec![Effect::Quit] };
+    fn only_an_answer_is_one() {
+        let yes = Answer { key: 'y', label: "yes", effects: vec![Effect::Quit] };
+        let other = Answer { key: 'l', label: "leave it", effects: vec![Effect::StopRun] };
+        let question = || Overlay::Question { text: "?".into(), answers: vec![yes.clone(), other.clone()] };
         for code in [KeyCode::Enter, KeyCode::Esc, KeyCode::Char('n'), KeyCode::Char(' ')] {
             assert_eq!(question().key(&press(code), &mut String::new()), Outcome::Closed);
         }
         let yes = question().key(&press(KeyCode::Char('y')), &mut String::new());
         assert_eq!(yes, Outcome::Effects(vec![Effect::Quit]));
+        let other = question().key(&press(KeyCode::Char('L')), &mut String::new());
+        assert_eq!(other, Outcome::Effects(vec![Effect::StopRun]));
     }
 }

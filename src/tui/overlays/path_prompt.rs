@@ -11,6 +11,7 @@ use crate::messages::effect::Effect;
 use crate::messages::requests::{Command, FileTask, QueryRequest};
 use crate::overlays::form_frame::{Sending, draw_frame, ended};
 use crate::overlays::outcome::Outcome;
+use crate::widgets::text::{self, left, shortened};
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::edit;
 use wardrobe::Part;
@@ -50,7 +51,7 @@ impl Purpose {
         match self {
             Self::Import(Part::Fabric) => "TOML with [[fabric]] tables, or CSV with columns name, density_kg_m2, …",
             Self::Import(_) => "CSV with columns name, sex, stature_mm, …, or a study.toml",
-            Self::Export(_) => "a new file: NAME.csv or NAME.json",
+            Self::Export(_) => "a new file: NAME.csv, NAME.json or NAME.parquet",
             Self::Write(_) => "a folder, which is made where it is missing",
             Self::SaveQuery(_) => {
                 "a name: NAME.sql in the folder queries beside the database; one of that name is replaced"
@@ -88,6 +89,8 @@ pub struct PathPrompt {
     pub purpose: Purpose,
     /// Text as typed.
     pub text: String,
+    /// Files among which the typed path leaves a choice, after Tab.
+    pub offered: Candidates,
     /// Progress of reading or writing the file.
     pub sending: Sending,
 }
@@ -96,7 +99,7 @@ impl PathPrompt {
     /// Makes a prompt with a text to begin with.
     #[must_use]
     pub fn new(purpose: Purpose, text: impl Into<String>) -> Self {
-        Self { purpose, text: text.into(), sending: Sending::default() }
+        Self { purpose, text: text.into(), offered: Candidates::default(), sending: Sending::default() }
     }
 
     /// True if the prompt is for a name, not for a path.
@@ -110,9 +113,10 @@ impl PathPrompt {
             return Outcome::Open;
         }
         if event.code == KeyCode::Tab && !self.is_name() {
-            self.text = completed(&self.text).unwrap_or_else(|| self.text.clone());
+            self.offered = Candidates::complete(&mut self.text);
             return Outcome::Open;
         }
+        self.offered = Candidates::default();
         if event.code != KeyCode::Enter {
             edit(&mut self.text, event);
             return Outcome::Open;
@@ -141,23 +145,72 @@ pub fn path_of(text: &str) -> PathBuf {
     home.map_or_else(|| PathBuf::from(text), |(rest, home)| home.join(rest))
 }
 
-/// Typed path, completed as far as the files that exist leave no choice; `None` where that adds nothing.
-#[must_use]
-pub fn completed(text: &str) -> Option<String> {
-    let (folder, start) =
-        text.rsplit_once('/').map_or(("", text), |(_, start)| (&text[..text.len() - start.len()], start));
+/// Files of a folder that a typed path may mean.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Candidates {
+    /// Names of the files, in order; those of folders end in `/`.
+    names: Vec<String>,
+}
+
+impl Candidates {
+    /// Completes a typed path as far as the files that exist leave no choice. Returns the files among which there is a
+    /// choice, where the path cannot be completed; no files where it was.
+    pub fn complete(text: &mut String) -> Self {
+        let (folder, start) =
+            text.rsplit_once('/').map_or(("", text.as_str()), |(_, start)| (&text[..text.len() - start.len()], start));
+        let mut names = names_of(folder, start);
+        let Some(first) = names.first() else { return Self::default() };
+        let shared = |count: &usize| {
+            first.is_char_boundary(*count) && names.iter().all(|name| name.starts_with(&first[..*count]))
+        };
+        if let Some(count) = (start.len() + 1..=first.len()).rev().find(shared) {
+            *text = format!("{folder}{}", &first[..count]);
+            names.clear();
+        }
+        Self { names }
+    }
+
+    /// True where there is no choice.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.names.len() < 2
+    }
+
+    /// Names in lines of at most `columns` columns, at most `lines` of them.
+    #[must_use]
+    pub fn lines(&self, columns: usize, lines: usize, theme: Theme) -> Vec<Line<'static>> {
+        if self.is_empty() || lines == 0 {
+            return vec![];
+        }
+        let widest = self.names.iter().map(|name| text::width(name)).max().unwrap_or(0) + 2;
+        let across = (columns.saturating_sub(1) / widest).max(1);
+        let rows: Vec<&[String]> = self.names.chunks(across).collect();
+        let shown = if rows.len() > lines { lines - 1 } else { rows.len() };
+        let line = |names: &&[String]| {
+            let cells = names.iter().map(|name| left(name, widest)).collect::<String>();
+            Line::raw(shortened(&format!(" {}", cells.trim_end()), columns))
+        };
+        let mut told: Vec<Line<'_>> = rows.iter().take(shown).map(line).collect();
+        let more = self.names.len().saturating_sub(shown * across);
+        if more > 0 {
+            told.push(Line::styled(format!(" … and {more} more"), theme.dim()));
+        }
+        told
+    }
+}
+
+/// Names of the files of a folder that begin with a text, in order.
+fn names_of(folder: &str, start: &str) -> Vec<String> {
     let place = if folder.is_empty() { PathBuf::from(".") } else { path_of(folder) };
     let name = |entry: std::fs::DirEntry| {
         let end = if entry.path().is_dir() { "/" } else { "" };
         Some(entry.file_name().to_str()?.to_owned() + end)
     };
     let is_meant = |name: &String| name.starts_with(start) && (start.starts_with('.') || !name.starts_with('.'));
-    let names: Vec<String> = std::fs::read_dir(place).ok()?.flatten().filter_map(name).filter(is_meant).collect();
-    let first = names.first()?;
-    let shared =
-        |count: &usize| first.is_char_boundary(*count) && names.iter().all(|name| name.starts_with(&first[..*count]));
-    let count = (start.len() + 1..=first.len()).rev().find(shared)?;
-    Some(format!("{folder}{}", &first[..count]))
+    let files = std::fs::read_dir(place).into_iter().flatten().flatten();
+    let mut names: Vec<String> = files.filter_map(name).filter(is_meant).collect();
+    names.sort();
+    names
 }
 
 /// Draws the prompt.
@@ -167,6 +220,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, prompt: &PathPrompt, theme: Theme
     // The end of a long path is shown, since typing goes on there.
     let mut lines = vec![Line::styled(ended(&format!(" {}▏", prompt.text), columns, true), theme.bold())];
     lines.extend(prompt.sending.lines(prompt.purpose.busy(), columns, theme));
+    lines.extend(prompt.offered.lines(columns, usize::from(area.height.saturating_sub(4)), theme));
     if lines.len() == 1 {
         let home = if prompt.is_name() { "" } else { "; ~/ is home" };
         lines.push(Line::styled(format!(" {}{home}", prompt.purpose.hint()), theme.dim()));
@@ -177,6 +231,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, prompt: &PathPrompt, theme: Theme
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::widgets::theme::Colours;
 
     #[test]
     fn paths_are_completed_as_far_as_there_is_no_choice() {
@@ -186,16 +241,29 @@ mod tests {
             std::fs::write(folder.path().join(name), "").expect("writable");
         }
         std::fs::create_dir(folder.path().join("trousers")).expect("writable");
-        let check = |typed: &str, expect: Option<&str>| {
-            let found = completed(&format!("{place}/{typed}"));
-            assert_eq!(found, expect.map(|expect| format!("{place}/{expect}")), "{typed}");
+        let check = |typed: &str, expect: &str, offered: &[&str]| {
+            let mut text = format!("{place}/{typed}");
+            let found = Candidates::complete(&mut text);
+            let found: Vec<&str> =
+                if found.is_empty() { vec![] } else { found.names.iter().map(String::as_str).collect() };
+            assert_eq!((text, found.as_slice()), (format!("{place}/{expect}"), offered), "{typed}");
         };
-        check("s", Some("shirt-"));
-        check("shirt-b", Some("shirt-back.dxf"));
-        check("shirt-", None);
-        check("t", Some("trousers/"));
-        check("x", None);
-        check(".", Some(".hidden"));
-        check("trousers/", None);
+        check("s", "shirt-", &[]);
+        check("shirt-b", "shirt-back.dxf", &[]);
+        check("shirt-", "shirt-", &["shirt-back.dxf", "shirt-front.dxf"]);
+        check("t", "trousers/", &[]);
+        check("", "", &["shirt-back.dxf", "shirt-front.dxf", "trousers/"]);
+        check("x", "x", &[]);
+        check(".", ".hidden", &[]);
+        check("trousers/", "trousers/", &[]);
+    }
+
+    #[test]
+    fn a_long_choice_is_cut_with_its_number() {
+        let names = (0..30).map(|k| format!("size-{k:02}.dxf")).collect();
+        let lines = Candidates { names }.lines(30, 4, Theme::new(Colours::None, false));
+        let texts: Vec<String> = lines.iter().map(Line::to_string).collect();
+        assert_eq!(texts[0], " size-00.dxf  size-01.dxf");
+        assert_eq!(texts[3], " … and 24 more");
     }
 }

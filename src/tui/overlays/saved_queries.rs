@@ -38,12 +38,13 @@ impl QueryList {
 
     /// Handles a key: Enter takes the selected query, Ctrl-R renames it.
     pub fn key(&mut self, event: &KeyEvent) -> Outcome {
-        let selected = self.rows().get(self.row).copied();
+        let rows = self.rows();
+        let (selected, count) = (rows.get(self.row).copied(), rows.len());
         let is_rename = event.code == KeyCode::Char('r') && event.modifiers.contains(KeyModifiers::CONTROL);
         match selected {
             Some(query) if event.code == KeyCode::Enter => return Outcome::Query(query.sql.clone()),
             Some(query) if is_rename => return Outcome::Rename(query.name.clone()),
-            _ => in_list(&mut self.text, &mut self.row, event),
+            _ => in_list(&mut self.text, &mut self.row, count, event),
         }
         self.row = self.row.min(self.rows().len().saturating_sub(1));
         Outcome::Open

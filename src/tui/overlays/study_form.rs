@@ -14,12 +14,9 @@ use crate::overlays::outcome::Outcome;
 use crate::widgets::lists::first_shown;
 use crate::widgets::text::{self, left, shortened};
 use crate::widgets::theme::Theme;
-use crate::widgets::typing::{edit, is_ctrl_c};
+use crate::widgets::typing::{edit, is_ctrl_c, moved};
 use engine::{NewStudy, PatternSource, Wearable};
 use fit::Simulator;
-
-/// Lines of a page.
-const PAGE: usize = 10;
 
 /// Columns for the names of the parts.
 const SECTION: usize = 17;
@@ -160,20 +157,21 @@ impl StudyForm {
             self.narrow(event);
             return Outcome::Open;
         }
-        let (line, last) = (self.line(), self.lines().len() - 1);
+        let (line, lines) = (self.line(), self.lines().len());
+        // In the line of the name, letters are typed, and Ctrl-U empties it.
+        let is_typed = line == FormLine::Name;
+        let empties = is_typed && event.code == KeyCode::Char('u');
+        if let Some(next) = moved(self.at, lines, event, !is_typed).filter(|_| !empties) {
+            self.at = next;
+            return Outcome::Open;
+        }
         match event.code {
             _ if is_done(event, line == FormLine::Fabric) => return self.save(),
             KeyCode::Enter | KeyCode::Tab => self.go_to_section(1),
             KeyCode::BackTab => self.go_to_section(-1),
-            KeyCode::Down => self.at = (self.at + 1).min(last),
-            KeyCode::Up => self.at = self.at.saturating_sub(1),
-            KeyCode::PageDown => self.at = (self.at + PAGE).min(last),
-            KeyCode::PageUp => self.at = self.at.saturating_sub(PAGE),
-            _ if line == FormLine::Name => {
+            _ if is_typed => {
                 edit(&mut self.name, event);
             }
-            KeyCode::Char('j') => self.at = (self.at + 1).min(last),
-            KeyCode::Char('k') => self.at = self.at.saturating_sub(1),
             KeyCode::Char('/') if matches!(line, FormLine::Size(_) | FormLine::Subject(_)) => {
                 self.filter = Filter { section: line.section(), text: String::new(), is_typed: true };
             }

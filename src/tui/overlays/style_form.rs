@@ -9,7 +9,7 @@ use crate::messages::effect::Effect;
 use crate::messages::requests::Command;
 use crate::overlays::form_frame::{Sending, draw_frame, ended, is_done};
 use crate::overlays::outcome::Outcome;
-use crate::overlays::path_prompt::{completed, path_of};
+use crate::overlays::path_prompt::{Candidates, path_of};
 use crate::widgets::text::{self, left, shortened};
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::edit;
@@ -35,6 +35,8 @@ pub struct StyleForm {
     pub texts: [String; 5],
     /// Index of the line that is edited.
     pub at: usize,
+    /// Files among which a typed path leaves a choice, after Tab.
+    pub offered: Candidates,
     /// Progress of reading the files.
     pub sending: Sending,
 }
@@ -76,10 +78,16 @@ impl StyleForm {
             return Outcome::Open;
         }
         let lines = self.texts.len();
+        if event.code != KeyCode::Tab {
+            self.offered = Candidates::default();
+        }
         match event.code {
             _ if is_done(event, self.at + 1 == lines) => return self.save(),
-            KeyCode::Tab if self.complete() => {}
-            KeyCode::Enter | KeyCode::Tab | KeyCode::Down => self.at = (self.at + 1) % lines,
+            KeyCode::Tab if self.complete() => return Outcome::Open,
+            KeyCode::Enter | KeyCode::Tab | KeyCode::Down => {
+                self.offered = Candidates::default();
+                self.at = (self.at + 1) % lines;
+            }
             KeyCode::BackTab | KeyCode::Up => self.at = (self.at + lines - 1) % lines,
             _ => {
                 edit(&mut self.texts[self.at], event);
@@ -88,13 +96,17 @@ impl StyleForm {
         Outcome::Open
     }
 
-    /// Completes the path of the line. Returns true if that added something.
+    /// Completes the path of the line, or offers the files among which there is a choice. Returns false where neither
+    /// helps.
     fn complete(&mut self) -> bool {
         let text = &mut self.texts[self.at];
-        let more = if [PATTERN, SEAMS].contains(&self.at) && !text.is_empty() { completed(text) } else { None };
-        let has_more = more.is_some();
-        *text = more.unwrap_or_else(|| std::mem::take(text));
-        has_more
+        if ![PATTERN, SEAMS].contains(&self.at) || text.is_empty() {
+            return false;
+        }
+        let before = text.len();
+        let known = std::mem::replace(&mut self.offered, Candidates::complete(text));
+        // A second Tab on the same choice goes on, as it does on a path that is whole.
+        text.len() > before || !self.offered.is_empty() && self.offered != known
     }
 
     /// Sends the form, or reports what is wrong.
@@ -149,6 +161,8 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StyleForm, theme: Theme) {
         Line::from(vec![Span::styled(head + &shown, style), Span::styled(hint, theme.dim())])
     };
     let mut lines: Vec<Line<'_>> = form.texts.iter().enumerate().map(line).collect();
+    let room = usize::from(area.height.saturating_sub(2)).saturating_sub(lines.len());
+    lines.extend(form.offered.lines(columns, room, theme));
     lines.extend(form.sending.lines("reading, and sewing each size…", columns, theme));
     let keys = " Tab completes  ↵ next line  F5 import all or none  Esc cancel  ~/ is home ";
     draw_frame(frame, area, width, "import a style or sizes".to_owned(), keys, lines, theme);

@@ -35,7 +35,7 @@ const STEPS: [(Screen, &str); 6] = [
     ),
     (
         Screen::Sql,
-        "Every number is in the database. F5 runs the query, o offers saved ones, w writes the rows as CSV or JSON.",
+        "Every number is in the database. F5 runs the query, o offers saved ones, w writes the rows as CSV, JSON or Parquet.",
     ),
     (
         Screen::Reports,

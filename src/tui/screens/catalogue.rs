@@ -1,11 +1,13 @@
 //! Adding, editing, importing and removing the entries of the catalogue that have forms: subjects and fabrics.
 
+use crate::keys::action::Action;
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::messages::requests::Command;
 use crate::overlays::Overlay;
 use crate::overlays::entry_form::Form;
 use crate::overlays::path_prompt::{PathPrompt, Purpose};
+use crate::screens::marks::Marks;
 use crate::screens::state::State;
 use wardrobe::Part;
 
@@ -44,9 +46,37 @@ pub fn import(state: &mut State, part: Part) {
     }
 }
 
-/// Removes an entry by name, after a question.
-pub fn remove(state: &mut State, part: Part, name: Option<String>) {
-    let Some(name) = name else { return state.say(format!("no {part} is selected")) };
-    let text = format!("Remove {part} {name}? Results that use it stay as they are.");
-    state.ask(text, vec![Effect::Do(Command::Remove(part, name))]);
+/// Removes entries by name, after a question.
+pub fn remove(state: &mut State, part: Part, names: Vec<String>) {
+    let what = match &names[..] {
+        [] => return state.say(format!("no {part} is selected")),
+        [name] => format!("{part} {name}"),
+        names => format!("{} {part}s: {}", names.len(), names.join(", ")),
+    };
+    let text = format!("Remove {what}? Results that use it stay as they are.");
+    state.ask(text, names.into_iter().map(|name| Effect::Do(Command::Remove(part, name))).collect());
+}
+
+/// Carries out an action on the marks of a list; `None` for another action. `selected` is the selected row.
+pub fn mark(
+    state: &mut State,
+    marks: &mut Marks<String>,
+    action: Action,
+    shown: &[String],
+    selected: Option<&String>,
+) -> Option<Vec<Effect>> {
+    match (action, selected) {
+        (Action::Mark, Some(name)) => marks.toggle(name.clone()),
+        (Action::MarkRange, Some(name)) => marks.extend_to(shown, name.clone()),
+        (Action::MarkAll, _) => marks.toggle_all(shown),
+        (Action::Unmark, _) => marks.clear(),
+        _ => return None,
+    }
+    let told = match marks.len() {
+        0 => "none is selected".to_owned(),
+        1 => "1 is selected; d removes it, u takes it back".to_owned(),
+        n => format!("{n} are selected; d removes them, u takes all back"),
+    };
+    state.say(told);
+    Some(vec![])
 }

@@ -7,6 +7,7 @@ pub mod compare;
 pub mod fabrics;
 pub mod fit;
 pub mod jobs;
+pub mod marks;
 pub mod measurements;
 pub mod movement;
 pub mod order;

@@ -1,6 +1,5 @@
 //! State that the screens share: data that was read, selections, settings, messages.
 
-use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use ratatui::layout::{Position, Rect, Size};
@@ -11,7 +10,8 @@ use crate::keys::table::BINDINGS;
 use crate::messages::effect::Effect;
 use crate::messages::requests::Target;
 use crate::messages::snapshot::{Detail, Focus, Place, Snapshot};
-use crate::overlays::Overlay;
+use crate::overlays::{Answer, Overlay};
+use crate::screens::marks::Marks;
 use crate::screens::measurements::state::Measurements;
 use crate::screens::movement::Movement;
 use crate::screens::picture_pane::state::Pictures;
@@ -38,6 +38,8 @@ pub struct Told {
     pub commands: Vec<String>,
     /// Command of an effect whose outcome is awaited; it joins `commands` on success.
     pub awaited: Option<String>,
+    /// Name of the text that is being copied.
+    pub copying: String,
 }
 
 /// Abilities of this session of the workbench.
@@ -76,6 +78,8 @@ pub struct Terminal {
     pub size: Size,
     /// True while the mouse is captured.
     pub has_mouse: bool,
+    /// True or false for a captured or a free mouse, once the user has chosen.
+    pub chosen_mouse: Option<bool>,
     /// True or false for ASCII or all signs, once the user has chosen.
     pub chosen_ascii: Option<bool>,
     /// True once the terminal is gone, and only the run is waited for.
@@ -112,7 +116,8 @@ pub struct Navigation {
 pub struct InHand {
     /// Subject selected on the Subjects screen.
     pub subject: Option<SubjectId>,
-    /// Name of the fabric chosen on the Fabrics screen; `None` for the default.
+    /// Name of the fabric that the user went to on the Fabrics screen; without one that of the study, if it has the
+    /// style; `None` for the default.
     pub fabric: Option<String>,
 }
 
@@ -130,8 +135,8 @@ pub struct State {
     pub focus: Focus,
     /// Place of the selected cell in the grid.
     pub place: Place,
-    /// Jobs marked for a comparison.
-    pub marks: BTreeSet<JobId>,
+    /// Jobs marked for a comparison, or to be cancelled or queued again together.
+    pub marks: Marks<JobId>,
     /// Subject and fabric for trying a style on.
     pub in_hand: InHand,
     /// The shown screen, and focus and filter of each screen.
@@ -155,16 +160,16 @@ impl State {
         Self {
             theme,
             setup: Setup { bindings: BINDINGS, abilities, folders: Folders::default(), database: None },
-            terminal: Terminal { size, has_mouse: false, chosen_ascii: None, detached: false },
+            terminal: Terminal { size, has_mouse: false, chosen_mouse: None, chosen_ascii: None, detached: false },
             data: None,
             focus: Focus::default(),
             place: Place::default(),
-            marks: BTreeSet::new(),
+            marks: Marks::default(),
             in_hand: InHand::default(),
             nav: Navigation {
                 screen: Screen::Study,
                 trail: vec![],
-                second_pane: [false; Screen::ALL.len()],
+                second_pane: Screen::ALL.map(|screen| screen == Screen::Sql),
                 filters: Default::default(),
                 table_down: 0,
             },
@@ -218,6 +223,12 @@ impl State {
         self.data.as_ref()?.grid()
     }
 
+    /// Offset of local time from UTC, ms.
+    #[must_use]
+    pub fn offset_ms(&self) -> i64 {
+        self.data.as_ref().map_or(0, |data| data.offset_ms)
+    }
+
     /// The selected job.
     #[must_use]
     pub fn job(&self) -> Option<&JobRow> {
@@ -236,10 +247,10 @@ impl State {
         self.data.as_ref()?.subjects.iter().find(|row| Some(row.id) == self.in_hand.subject)
     }
 
-    /// Sign of a job that is marked for a comparison; empty for any other.
+    /// Sign of a marked job; empty for any other.
     #[must_use]
     pub fn mark_of(&self, job: Option<JobId>) -> &'static str {
-        if job.is_some_and(|job| self.marks.contains(&job)) { "•" } else { "" }
+        if job.is_some_and(|job| self.marks.has(&job)) { "•" } else { "" }
     }
 
     /// Shows a study.
@@ -277,6 +288,8 @@ impl State {
             None => self.nav.trail.push(self.nav.screen),
         }
         self.nav.screen = screen;
+        // Keys are commands until the query is asked for.
+        self.nav.second_pane[Screen::Sql as usize] = true;
     }
 
     /// Shows a message in the status line.
@@ -297,7 +310,18 @@ impl State {
 
     /// Asks a question; a yes carries out the effects.
     pub fn ask(&mut self, text: impl Into<String>, effects: Vec<Effect>) {
-        self.overlay = Some(Overlay::Question { text: text.into(), effects });
+        self.offer(text, vec![Answer { key: 'y', label: "yes", effects }]);
+    }
+
+    /// Asks a question with answers; any other key is none of them.
+    pub fn offer(&mut self, text: impl Into<String>, answers: Vec<Answer>) {
+        self.overlay = Some(Overlay::Question { text: text.into(), answers });
+    }
+
+    /// Copies a text, and tells its name once it is copied.
+    pub fn copy(&mut self, name: impl Into<String>, text: String) -> Vec<Effect> {
+        self.told.copying = name.into();
+        vec![Effect::Copy(text)]
     }
 
     /// Runs a study, or says why it cannot run.
@@ -310,7 +334,13 @@ impl State {
             return self.reply("a run goes on here already; X stops it");
         }
         self.running.target = Some(target.clone());
-        self.say("run started; it goes on in the background");
+        match self.study().filter(|study| study.paused) {
+            Some(study) => {
+                let text = format!("run started, but {} is paused: its jobs wait until p resumes it", study.name);
+                self.say(text);
+            }
+            None => self.say("run started; it goes on in the background"),
+        }
         vec![Effect::Run(target)]
     }
 }

@@ -14,6 +14,7 @@ use crossterm::event::{DisableMouseCapture, EnableMouseCapture};
 use crossterm::{cursor, execute, terminal};
 use ratatui::layout::Size;
 use ratatui::{Frame, Terminal};
+use rustix::process::{Signal, kill_current_process_group};
 
 use crate::terminal::framed::{FramedBackend, Late};
 
@@ -162,6 +163,13 @@ impl Drop for Display {
 /// When the terminal is gone.
 pub fn take_mouse(is_taken: bool) -> io::Result<()> {
     if is_taken { execute!(io::stdout(), EnableMouseCapture) } else { execute!(io::stdout(), DisableMouseCapture) }
+}
+
+/// Stops this program and those of its process group, as Ctrl-Z does, until the shell continues them. Where no shell
+/// could do that, the system ignores it.
+pub fn stop() {
+    // An error means that there is nothing to stop: the workbench goes on.
+    let _ = kill_current_process_group(Signal::TSTP);
 }
 
 /// Replaces standard input by a silent socket once its terminal is gone. Otherwise crossterm would read the end of

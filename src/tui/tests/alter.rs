@@ -240,7 +240,8 @@ fn the_command_is_copied() {
     let mut bench = Bench::example(80, 24);
     let start = "alter studies/men-tops/study.toml --subject i --size S --garment tshirt";
     assert_eq!(copied(&mut bench, "0a-y"), format!("toile {start} -o altered/tshirt_S_i"));
-    assert_eq!(bench.status(), "copied the command");
+    bench.send(Message::Copied(Ok("in the buffer of tmux".into())));
+    assert_eq!(bench.status(), "copied the command: in the buffer of tmux");
     bench.app.state.setup.database = Some("/data/my own.sqlite".into());
     let draped = format!("toile --db '/data/my own.sqlite' {start} --drape -o altered/tshirt_S_i");
     assert_eq!(copied(&mut bench, "dy"), draped);

@@ -1,15 +1,19 @@
 //! Keys and their effects.
 
+use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
+
 use super::{Bench, fixture};
 use crate::app::App;
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::messages::message::Message;
 use crate::messages::requests::{Command, Target};
+use crate::messages::snapshot::Snapshot;
 use crate::overlays::Overlay;
 use crate::screens::measurements;
 use crate::widgets::picture::{self, FRONT, PictureRequest, Pictured};
 use results::Map;
+use store::owner::Runner;
 use store::{JobId, Status};
 
 fn selected(bench: &Bench) -> i64 {
@@ -67,11 +71,11 @@ fn destructive_actions_ask_and_others_act() {
     bench.press("n");
     assert_eq!(bench.asked(), []);
     bench.press("xy");
-    assert_eq!(bench.asked(), [Effect::Do(Command::Cancel(JobId(7)))]);
+    assert_eq!(bench.asked(), [Effect::Do(Command::Cancel(vec![JobId(7)]))]);
     bench.press("p");
     assert_eq!(bench.asked(), [Effect::Do(Command::Pause("men-tops".into()))]);
     bench.press("kkr");
-    assert_eq!(bench.asked(), [Effect::Do(Command::Retry(JobId(5)))]);
+    assert_eq!(bench.asked(), [Effect::Do(Command::Retry(vec![JobId(5)]))]);
     bench.press("+");
     assert_eq!(bench.asked(), [Effect::Do(Command::Prioritise(JobId(5), 1))]);
 }
@@ -88,7 +92,7 @@ fn what_cannot_be_done_says_why() {
     check("r", "job 1 is not run again: it has a result");
     check("lr", "the same inputs give the same result");
     check("n", "no filter is set");
-    check("X", "no run goes on here");
+    check("X", "no run goes on here; no job of it runs anywhere");
     check("}", "there is one study only");
     check("5t", "one stage only");
 }
@@ -102,10 +106,112 @@ fn a_run_is_started_once_and_asked_about_when_leaving() {
     assert_eq!(bench.asked(), []);
     bench.press("q");
     assert!(matches!(bench.app.state.overlay, Some(Overlay::Question { .. })));
-    bench.press("n:quit<Enter>y");
+    bench.press("n:quit<Enter>s");
     assert_eq!(bench.asked(), [Effect::StopRun, Effect::Quit]);
-    bench.send(Message::RunEnded(Ok("the run has ended".into())));
-    assert_eq!(bench.press("q").asked(), [Effect::Quit]);
+    bench.press("q");
+    assert!(bench.screen().contains("l leave it running    s stop it"), "{}", bench.screen());
+    bench.press("l");
+    assert_eq!(bench.asked(), [Effect::LeaveRunning(Target::Study("studies/men-tops/study.toml".into()))]);
+    bench.send(Message::RunEnded(Ok("men-tops: 5 done".into())));
+    assert_eq!(bench.press("q").asked(), [Effect::Notify("men-tops: 5 done".into()), Effect::Quit]);
+}
+
+#[test]
+fn the_end_of_a_run_is_told_and_kept() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("R").asked();
+    bench.send(Message::RunEnded(Ok("men-tops: 5 done, 2 failed".into())));
+    assert_eq!(bench.asked(), [Effect::Notify("men-tops: 5 done, 2 failed".into())]);
+    assert!(bench.status().contains("the run has ended: men-tops: 5 done, 2 failed"));
+    bench.send(Message::Faded);
+    assert!(bench.status().contains("? help"), "the keys are back: {}", bench.status());
+    assert!(bench.press("L").screen().contains("# the run has ended: men-tops: 5 done, 2 failed"));
+}
+
+#[test]
+fn a_run_of_a_paused_study_says_that_it_waits() {
+    let mut data = fixture::snapshot();
+    data.studies[0].paused = true;
+    let mut bench = Bench::new(120, 24, data);
+    assert!(bench.press("R").status().contains("men-tops is paused: its jobs wait until p resumes it"));
+}
+
+#[test]
+fn a_run_elsewhere_is_named() {
+    let check = |runner: Option<Runner>, expect: &str| {
+        let data = Snapshot { runners: runner.into_iter().collect(), ..fixture::snapshot() };
+        let mut bench = Bench::new(120, 24, data);
+        bench.press("X");
+        assert!(bench.status().contains(expect), "{}", bench.status());
+        assert_eq!(bench.asked(), []);
+    };
+    let runner = |pid| Runner { name: "process 71 on loom".into(), pid, jobs: 2 };
+    check(Some(runner(Some(71))), "no run goes on here; process 71 on loom runs 2 jobs: `kill 71` stops it");
+    check(Some(runner(None)), "process 71 on loom runs 2 jobs: it is stopped there");
+    check(None, "no run goes on here; no job of it runs anywhere");
+}
+
+#[test]
+fn what_is_seen_is_what_is_searched() {
+    let check = |keys: &str, expect: &[i64]| {
+        let mut bench = Bench::example(160, 50);
+        bench.press(keys);
+        let App { state, screens } = &bench.app;
+        let shown: Vec<i64> = screens.jobs.shown(state).iter().map(|job| job.id.0).collect();
+        assert_eq!(shown, expect, "{keys}");
+    };
+    check("4/not at", &[3]);
+    check("4/≈", &[3]);
+    check("4/conv", &[1, 2, 4, 5]);
+    check("4/in work", &[7, 8]);
+    check("4/58%", &[7, 8]);
+    check("4/0.0117", &[1]);
+    check("4/queued", &[9, 10, 11, 12]);
+    check("4/diverged", &[5]);
+
+    let rows = |keys: &str| {
+        let mut bench = Bench::example(160, 50);
+        bench.press(keys);
+        let state = &bench.app.state;
+        let measured: Vec<String> = measurements::rows(state).iter().map(|row| row.name.clone()).collect();
+        measured
+    };
+    assert_eq!(rows("5/1.061"), ["Neck Opening"]);
+    assert_eq!(rows("5/356.5"), ["Sleeve Opening"]);
+    assert_eq!(rows("5/="), ["Armhole Circumference"]);
+
+    let mut bench = Bench::example(80, 24);
+    bench.press("/≈<Enter>n");
+    assert_eq!(selected(&bench), 3);
+    bench.press("<Esc>/58%<Enter>n");
+    assert_eq!(selected(&bench), 7);
+}
+
+#[test]
+fn ctrl_z_suspends_from_everywhere() {
+    for keys in ["<C-z>", "7eSELECT<C-z>", "?<C-z>", "R:q<C-z>"] {
+        let effects = Bench::example(80, 24).press(keys).asked();
+        assert_eq!(effects.last(), Some(&Effect::Suspend), "{keys}");
+    }
+}
+
+#[test]
+fn a_click_goes_where_it_hits() {
+    let click = |bench: &mut Bench, column: u16, row: u16| {
+        let kind = MouseEventKind::Down(MouseButton::Left);
+        bench.send(Message::Mouse(MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE }));
+    };
+    let mut bench = Bench::example(80, 24);
+    // A cell of the grid: the fourth line of the screen is size S by Hybrid.
+    click(&mut bench, 20, 4);
+    assert_eq!(selected(&bench), 4);
+    bench.press("4");
+    click(&mut bench, 30, 6);
+    assert_eq!(selected(&bench), 4);
+    click(&mut bench, 30, 3);
+    assert_eq!(selected(&bench), 1);
+    click(&mut bench, 30, 20);
+    assert!(bench.app.state.in_second_pane(), "the log");
 }
 
 #[test]
@@ -287,4 +393,48 @@ fn the_tour_shows_six_screens_and_ends() {
     assert!(bench.press("<Esc>").app.state.overlay.is_none());
     let mut first = Bench::new(80, 24, fixture::empty());
     assert!(first.press("T").status().contains("needs results"));
+}
+
+#[test]
+fn an_action_acts_on_all_selected_jobs() {
+    let check = |keys: &str, question: &str, expect: &[Effect]| {
+        let mut bench = Bench::example(120, 30);
+        bench.press(keys);
+        assert!(bench.screen().contains(question), "{keys}: {}", bench.screen());
+        assert_eq!(bench.press("y").asked(), expect, "{keys}");
+    };
+    let jobs = |ids: &[i64]| ids.iter().copied().map(JobId).collect::<Vec<_>>();
+    check("4jjjjjj jjVx", "Cancel 3 of the 3 selected jobs?", &[Effect::Do(Command::Cancel(jobs(&[7, 8, 9])))]);
+    check("4/queued<Enter>*x", "Cancel 4 of the 4", &[Effect::Do(Command::Cancel(jobs(&[9, 10, 11, 12])))]);
+    check("4*x", "Cancel 6 of the 12", &[Effect::Do(Command::Cancel(jobs(&[7, 8, 9, 10, 11, 12])))]);
+    check("4**jjjjjjx", "Cancel job 7,", &[Effect::Do(Command::Cancel(jobs(&[7])))]);
+
+    let mut bench = Bench::example(120, 30);
+    assert_eq!(bench.press("4*r").asked(), [Effect::Do(Command::Retry(jobs(&[5, 6])))]);
+    assert_eq!(bench.press("u r").asked(), [], "job 1 has a result");
+    let mut bench = Bench::example(120, 30);
+    bench.press("/failed<Enter>*r");
+    assert_eq!(bench.asked(), [Effect::Do(Command::Retry(jobs(&[5])))], "cells of the grid too");
+    assert!(Bench::example(120, 30).press("4 jVr").status().contains("none of the 2 selected jobs failed"));
+}
+
+#[test]
+fn several_entries_are_removed_together() {
+    let check = |keys: &str, question: &str, expect: &[&str]| {
+        let mut bench = Bench::example(120, 30);
+        bench.press(keys);
+        assert!(bench.screen().contains(question), "{keys}: {}", bench.screen());
+        let effects = bench.press("y").asked();
+        let removed: Vec<&str> = effects
+            .iter()
+            .filter_map(|effect| match effect {
+                Effect::Do(Command::Remove(_, name)) => Some(name.as_str()),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(removed, expect, "{keys}");
+    };
+    check("9 jjVd", "Remove 3 fabrics", &["cotton_shirting_light", "jersey", "stiff"]);
+    check("9jd", "Remove fabric jersey?", &["jersey"]);
+    check("9/stretch<Esc>*ujd", "Remove fabric jersey?", &["jersey"]);
 }

@@ -1,5 +1,7 @@
 //! An example study: two sizes of a T-shirt on three subjects by both simulators, with jobs in all states.
 
+use std::collections::BTreeMap;
+
 use crate::messages::message::Message;
 use crate::messages::seams::{SeamTask, SeamWork, SizeLayout};
 use crate::messages::snapshot::{Compared, Detail, Snapshot};
@@ -136,11 +138,14 @@ pub fn snapshot() -> Snapshot {
     };
     Snapshot {
         now_ms: NOW_MS,
+        offset_ms: 0,
         subjects: subjects(),
         fabrics: fabrics(),
         sizes: sizes(),
         studies: vec![study],
         study: 0,
+        runners: vec![],
+        cloths: [("tshirt".to_owned(), "jersey".to_owned())].into(),
         grid: Some(grid),
         ease: (0..6).map(|k| ease(k / 3, k % 3)).collect(),
         jobs,
@@ -282,11 +287,14 @@ pub fn girths() -> Girths {
 pub fn empty() -> Snapshot {
     Snapshot {
         now_ms: NOW_MS,
+        offset_ms: 0,
         subjects: vec![],
         fabrics: vec![],
         sizes: vec![],
         studies: vec![],
         study: 0,
+        runners: vec![],
+        cloths: BTreeMap::new(),
         grid: None,
         jobs: vec![],
         ease: vec![],

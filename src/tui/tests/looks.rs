@@ -32,7 +32,7 @@ fn subjects() {
 
 #[test]
 fn the_form_of_a_subject() {
-    looks_like!("subject_form", "2a<F5>eva<Tab><Tab>1650<Tab>70,5<Tab>1500<Tab>700");
+    looks_like!("subject_form", "2a<F5>eva<Tab><Tab>1650<Tab>70;5<Tab>1500<Tab>700");
 }
 
 #[test]

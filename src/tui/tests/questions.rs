@@ -71,7 +71,7 @@ fn a_query_is_typed_completed_run_and_its_rows_sorted() {
         bench.press("7");
         ask(&mut bench);
         assert_snapshot!(format!("sql_{width}x{height}"), bench.screen());
-        bench.press("select * from v_<Tab>");
+        bench.press("eselect * from v_<Tab>");
         assert_snapshot!(format!("sql_completion_{width}x{height}"), bench.screen());
         bench.press("<F5>");
         assert!(bench.screen().contains("asking… C-c cancels"));
@@ -89,7 +89,7 @@ fn a_query_is_typed_completed_run_and_its_rows_sorted() {
 #[test]
 fn the_reason_of_a_refusal_goes_with_the_query() {
     let mut bench = Bench::example(80, 24);
-    bench.press("7select wrong<F5>");
+    bench.press("7eselect wrong<F5>");
     ask(&mut bench);
     ctrl(&mut bench, 'u');
     assert!(bench.screen().contains("✗ no such column: wrong"), "it stays while a query is written");
@@ -101,7 +101,7 @@ fn the_reason_of_a_refusal_goes_with_the_query() {
 #[test]
 fn queries_are_refused_cancelled_recalled_and_saved_ones_offered() {
     let mut bench = Bench::example(80, 24);
-    bench.press("7select wrong<F5>");
+    bench.press("7eselect wrong<F5>");
     ask(&mut bench);
     assert!(bench.screen().contains("✗ no such column: wrong"), "{}", bench.screen());
     bench.press("<Esc>e; select 2<F5>");
@@ -133,9 +133,10 @@ fn queries_are_refused_cancelled_recalled_and_saved_ones_offered() {
 fn an_empty_editor_lets_commands_through() {
     let mut bench = Bench::example(80, 24);
     bench.press("7");
-    assert!(bench.press("?").screen().contains("keys:"));
+    assert_eq!(bench.press("4").app.state.nav.screen, Screen::Jobs, "keys are commands until e");
+    assert!(bench.press("7e?").screen().contains("keys:"));
     assert_eq!(bench.press("<Esc>4").app.state.nav.screen, Screen::Jobs);
-    assert_eq!(bench.press("7x4").app.state.nav.screen, Screen::Sql, "now it is text");
+    assert_eq!(bench.press("7ex4").app.state.nav.screen, Screen::Sql, "now it is text");
     assert_eq!(bench.press("<Esc>:run<Enter>").asked().last(), Some(&Effect::Query(QueryRequest::Rows("x4".into()))));
 }
 
@@ -149,7 +150,7 @@ fn fem_and_hybrid_are_compared_unless_runs_are_selected() {
     }
     let mut bench = Bench::example(80, 24);
     bench.press(" l ");
-    assert_eq!(bench.status(), "2 runs are selected; c compares, u takes all back");
+    assert_eq!(bench.status(), "2 runs are selected; c compares, x cancels, r retries, u takes all back");
     bench.press("cd");
     assert_eq!(bench.app.state.focus.compare, [JobId(1), JobId(3)]);
     assert!(bench.screen().contains("no measurement differs"), "the fixture's results by FEM are all the same");
@@ -240,6 +241,39 @@ fn a_new_study_is_chosen_from_the_catalogue() {
 }
 
 #[test]
+fn several_queries_are_kept_beside_each_other() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("7eselect 1<Esc>aselect 2<Esc>");
+    let text = |bench: &Bench| bench.app.screens.sql.editor.text().to_owned();
+    assert_eq!(text(&bench), "select 2");
+    assert!(bench.screen().contains("query 2 of 2"), "{}", bench.screen());
+    assert_eq!(text(bench.press("]")), "select 1");
+    assert_eq!(text(bench.press("[")), "select 2");
+    let memory = Session::of(&bench.app);
+    let mut again = Bench::example(80, 24);
+    memory.restore(&mut again.app);
+    assert_eq!((text(&again), text(again.press("["))), ("select 2".into(), "select 1".into()));
+    assert!(Bench::example(80, 24).press("7]").status().contains("a begins another"));
+    assert_eq!(bench.press("aa").app.screens.sql.queries().texts.len(), 3, "a letter, since the query is typed");
+}
+
+#[test]
+fn the_catalogue_stands_beside_the_query() {
+    let check = |width: u16, keys: &str, seen: &[&str], unseen: &str| {
+        let mut bench = Bench::example(width, 30);
+        bench.press("7");
+        ask(&mut bench);
+        bench.press(keys);
+        let screen = bench.screen();
+        assert!(seen.iter().all(|text| screen.contains(text)) && !screen.contains(unseen), "{keys}: {screen}");
+    };
+    check(80, "eselect ", &["v_pair     study, garment, ei"], " columns ");
+    check(80, "eselect * from V_PAIR p", &[" columns ", "garment"], " views ");
+    check(80, "eselect * from v_pair<Esc>", &["v_pair"], " columns ");
+    check(160, "eselect * from v_pair<Esc>", &[" columns ", "garment"], " views ");
+}
+
+#[test]
 fn a_run_here_is_watched_and_one_elsewhere_is_not() {
     let mut bench = Bench::example(80, 24);
     bench.press("4jjjjjj5");
@@ -258,7 +292,7 @@ fn a_run_here_is_watched_and_one_elsewhere_is_not() {
 #[test]
 fn what_was_looked_at_is_remembered() {
     let mut bench = Bench::example(80, 24);
-    bench.press("4/hyb<Enter>sjj 7select 1<Esc>3");
+    bench.press("4/hyb<Enter>sjj 7eselect 1<Esc>3");
     let memory = Session::of(&bench.app);
     let abilities = bench.app.state.setup.abilities;
     let mut app = App::new(bench.app.state.theme, abilities, bench.app.state.terminal.size);
@@ -300,7 +334,7 @@ fn the_brake_stops_a_query_that_would_never_end() {
     let canceller = Canceller::default();
     std::thread::scope(|scope| {
         let (path, own_canceller) = (path.clone(), canceller.clone());
-        scope.spawn(move || queries::serve(&path, &own_canceller, &wanted, &sender));
+        scope.spawn(move || queries::serve(&path, &own_canceller, |_| vec![], &wanted, &sender));
         let endless = "WITH RECURSIVE n(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM n) SELECT count(*) FROM n";
         let ask = |sql: &str| questions.send(QueryRequest::Rows(sql.into())).expect("it listens");
         ask(endless);

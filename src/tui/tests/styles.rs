@@ -336,6 +336,6 @@ fn seams_are_written_by_hand_in_an_editor() {
     );
     bench.send(Message::Written(Box::new(what), Err("vi: not found".into())));
     assert!(bench.status().contains("not found"));
-    bench.press("7<Esc>E");
+    bench.press("7E");
     assert!(bench.asked().iter().any(|effect| matches!(effect, Effect::Write(Writing::Query(_)))));
 }

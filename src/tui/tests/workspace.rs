@@ -46,8 +46,8 @@ fn follows_a_run_and_acts_on_it() {
     bench.app.update(Message::Data(Box::new(read(&store, &bench.app.state.focus.clone()))));
     assert!(bench.screen().contains("does not go over"), "{}", bench.screen());
 
-    assert!(carry_out(&mut store, &Command::Retry(first)).expect("allowed").contains("is queued again"));
-    assert!(carry_out(&mut store, &Command::Retry(first)).expect("allowed").contains("is not run again"));
+    assert!(carry_out(&mut store, &Command::Retry(vec![first])).expect("allowed").contains("is queued again"));
+    assert!(carry_out(&mut store, &Command::Retry(vec![first])).expect("allowed").contains("is not run again"));
     assert!(carry_out(&mut store, &Command::Pause(study.name.clone())).expect("allowed").contains("is paused"));
     assert!(carry_out(&mut store, &Command::Pause("none".into())).is_err());
     bench.app.update(Message::Data(Box::new(read(&store, &bench.app.state.focus.clone()))));

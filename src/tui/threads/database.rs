@@ -8,7 +8,8 @@ use crate::messages::requests::Command;
 use crate::messages::snapshot::{Focus, Snapshot};
 use crate::threads::reading;
 use engine::actions;
-use store::{Store, StudyError};
+use store::owner::Watch;
+use store::{Status, Store, StudyError, StudyRow, queue};
 use wardrobe::seams::write_seams;
 use wardrobe::{Deed, Mode, Part, Saved, Strictness, StyleGiven, catalogue};
 
@@ -25,7 +26,7 @@ pub enum Request {
 
 /// Reads data on request and whenever the database has changed, and changes queue and catalogue.
 pub fn serve(store: Store, asked: &Receiver<Request>, sender: &Sender<Message>) {
-    let mut reader = Reader { store, focus: Focus::default(), last: None, rest: POLL };
+    let mut reader = Reader { store, focus: Focus::default(), last: None, rest: POLL, watch: Watch::default() };
     loop {
         let first = match asked.recv_timeout(reader.rest) {
             Ok(request) => Some(request),
@@ -43,6 +44,10 @@ pub fn serve(store: Store, asked: &Receiver<Request>, sender: &Sender<Message>) 
                     }
                 }
             }
+        }
+        match reader.recover() {
+            Ok(None) => {}
+            Ok(Some(text)) | Err(text) => drop(sender.send(Message::Failed(text))),
         }
         let message = match reader.read(is_wanted) {
             Ok(None) => continue,
@@ -62,6 +67,8 @@ struct Reader {
     last: Option<Reading>,
     /// Time until the next check.
     rest: Duration,
+    /// Heartbeats of other machines' jobs, as seen here.
+    watch: Watch,
 }
 
 /// A reading of the database.
@@ -94,6 +101,18 @@ impl Reader {
         };
         self.last = Some(Reading { version, focus, data: data.clone() });
         Ok(Some(data))
+    }
+
+    /// Puts the jobs of runs that were interrupted back into the queue. Returns a line about them, if there were any.
+    fn recover(&mut self) -> Result<Option<String>, String> {
+        let is_running = |study: &StudyRow| study.count(Status::Running) > 0;
+        if self.last.as_ref().is_some_and(|last| !last.data.studies.iter().any(is_running)) {
+            return Ok(None);
+        }
+        let jobs = queue::recover(&mut self.store, &mut self.watch).map_err(|error| error.to_string())?;
+        let told =
+            |jobs: usize| format!("a run was interrupted: {jobs} of its jobs wait in the queue again, R goes on");
+        Ok((jobs > 0).then(|| told(jobs)))
     }
 
     /// Makes a change. Returns the message about its outcome.
@@ -138,14 +157,16 @@ pub fn carry_out(store: &mut Store, command: &Command) -> Result<String, StudyEr
             write_seams(path, before, after)?;
             Ok(format!("{} is written", path.display()))
         }
-        Command::Cancel(id) => match actions::cancel(store, &[*id])? {
-            0 => Ok(format!("job {id} had ended already")),
-            _ => Ok(format!("job {id} is cancelled; r queues it again")),
-        },
-        Command::Retry(id) => match actions::retry(store, &[*id])? {
-            0 => Ok(format!("job {id} is not run again")),
-            _ => Ok(format!("job {id} is queued again")),
-        },
+        Command::Cancel(ids) => Ok(match (actions::cancel(store, ids)?, &ids[..]) {
+            (0, [id]) => format!("job {id} had ended already"),
+            (_, [id]) => format!("job {id} is cancelled; r queues it again"),
+            (n, _) => format!("{n} of {} jobs are cancelled; r queues them again", ids.len()),
+        }),
+        Command::Retry(ids) => Ok(match (actions::retry(store, ids)?, &ids[..]) {
+            (0, [id]) => format!("job {id} is not run again"),
+            (_, [id]) => format!("job {id} is queued again; R runs it"),
+            (n, _) => format!("{n} jobs are queued again; R runs them"),
+        }),
         Command::Prioritise(id, priority) => {
             actions::set_priority(store, &[*id], *priority)?;
             Ok(format!("job {id} has priority {priority}"))

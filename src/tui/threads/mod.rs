@@ -31,7 +31,7 @@ use crate::threads::input::Keyboard;
 use crate::threads::previews::Slot;
 use crate::threads::queries::Canceller;
 use crate::widgets::picture::{PictureEncoder, PictureRequest};
-use store::{JobId, Live, Store};
+use store::{JobId, Live, Store, Table};
 
 /// The threads, and the messages from them.
 pub struct Threads {
@@ -60,7 +60,13 @@ pub struct Threads {
 impl Threads {
     /// Starts all threads except that of runs.
     #[must_use]
-    pub fn start(store: Store, encoder: Option<PictureEncoder>, quickstart: PathBuf, reports: PathBuf) -> Self {
+    pub fn start(
+        store: Store,
+        encoder: Option<PictureEncoder>,
+        quickstart: PathBuf,
+        reports: PathBuf,
+        parquet: fn(&Table) -> Vec<u8>,
+    ) -> Self {
         let (sender, messages) = mpsc::channel();
         let (path, readonly) = (store.path().to_owned(), store.is_readonly());
         let canceller = Canceller::default();
@@ -82,7 +88,9 @@ impl Threads {
             previews: serve(&sender, &path, move |path, asked, sender| {
                 previews::serve(path, readonly, asked, &slot, sender)
             }),
-            queries: serve(&sender, &path, move |path, asked, sender| queries::serve(path, &cancelled, asked, sender)),
+            queries: serve(&sender, &path, move |path, asked, sender| {
+                queries::serve(path, &cancelled, parquet, asked, sender);
+            }),
             files: serve(&sender, &path, move |path, asked, sender| {
                 files::serve(path, readonly, &reports, asked, sender)
             }),
@@ -126,15 +134,22 @@ impl Threads {
             Effect::Run(target) => self.start_run(target),
             Effect::StopRun => self.stop.store(true, Ordering::Relaxed),
             Effect::Write(_) | Effect::Copy(_) | Effect::Clear | Effect::Mouse(_) | Effect::Quit => {}
+            Effect::LeaveRunning(_) | Effect::Notify(_) | Effect::Suspend => {}
+        }
+    }
+
+    /// Path of a study to run.
+    #[must_use]
+    pub fn path_of(&self, target: Target) -> PathBuf {
+        match target {
+            Target::Study(path) => path,
+            Target::Quickstart => self.quickstart.clone(),
         }
     }
 
     fn start_run(&self, target: Target) {
         let is_quickstart = target == Target::Quickstart;
-        let path = match target {
-            Target::Study(path) => path,
-            Target::Quickstart => self.quickstart.clone(),
-        };
+        let path = self.path_of(target);
         self.stop.store(false, Ordering::Relaxed);
         let (database, stop, live) = (self.path.clone(), self.stop.clone(), self.live.clone());
         let handle = spawn(&self.sender, move |sender| {

@@ -1,5 +1,7 @@
 //! The thread that answers SQL queries, on a connection of its own, so that screens are updated during a long query.
 
+use std::fs::File;
+use std::io::Write;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender};
@@ -9,7 +11,7 @@ use std::time::Instant;
 use crate::messages::message::Message;
 use crate::messages::requests::QueryRequest;
 use crate::widgets::result_table::ResultTable;
-use store::{Interrupter, Store, StudyError, save_query, saved_queries, sql};
+use store::{Interrupter, Store, StudyError, Table, save_query, saved_queries, sql};
 use wardrobe::catalogue;
 
 /// Most rows of an answer on the screen; a file gets all rows.
@@ -38,7 +40,13 @@ impl Canceller {
 }
 
 /// Answers requests until nobody requests or listens any more.
-pub fn serve(database: &Path, canceller: &Canceller, wanted: &Receiver<QueryRequest>, sender: &Sender<Message>) {
+pub fn serve(
+    database: &Path,
+    canceller: &Canceller,
+    parquet: fn(&Table) -> Vec<u8>,
+    wanted: &Receiver<QueryRequest>,
+    sender: &Sender<Message>,
+) {
     // Opened read-only, so no query can write.
     let store = catalogue::open(database, true).map_err(|error| error.to_string());
     if let Ok(store) = &store {
@@ -73,8 +81,14 @@ pub fn serve(database: &Path, canceller: &Canceller, wanted: &Receiver<QueryRequ
                 Message::Answered(start.elapsed().as_millis() as u64, table)
             }
             QueryRequest::Export(text, path) => {
+                let is_parquet = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("parquet"));
                 let rows = store.and_then(|store| {
-                    sql::export_query(store, &text, &path, &canceller.is_on).map_err(|error| said(&error))
+                    let rows = if is_parquet {
+                        write_parquet(store, &text, &path, canceller, parquet)
+                    } else {
+                        sql::export_query(store, &text, &path, &canceller.is_on)
+                    };
+                    rows.map_err(|error| said(&error))
                 });
                 Message::Saved(rows.map(|rows| format!("{rows} rows are in {}", path.display())))
             }
@@ -83,6 +97,20 @@ pub fn serve(database: &Path, canceller: &Canceller, wanted: &Receiver<QueryRequ
             return;
         }
     }
+}
+
+/// Writes all rows of a query into a new Parquet file, which needs them all at once. Returns their number.
+fn write_parquet(
+    store: &Store,
+    text: &str,
+    path: &Path,
+    canceller: &Canceller,
+    parquet: fn(&Table) -> Vec<u8>,
+) -> Result<usize, StudyError> {
+    let table = sql::answer(store, text, usize::MAX, &canceller.is_on)?.table;
+    let mut file = File::create_new(path).map_err(StudyError::io(path))?;
+    file.write_all(&parquet(&table)).map_err(StudyError::io(path))?;
+    Ok(table.rows.len())
 }
 
 /// Renames a saved query; queries of the program keep their names.
@@ -124,6 +152,18 @@ fn said(error: &StudyError) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_file_is_written_once_and_by_its_ending() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let store = Store::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
+        let path = folder.path().join("rows.parquet");
+        let rows = |table: &Table| table.rows.len().to_string().into_bytes();
+        let write = || write_parquet(&store, "SELECT 1 UNION SELECT 2", &path, &Canceller::default(), rows);
+        assert_eq!(write().expect("written"), 2);
+        assert_eq!(std::fs::read(&path).expect("there"), b"2");
+        assert!(write().is_err(), "it is there already");
+    }
 
     #[test]
     fn saved_queries_get_other_names_that_none_has() {

@@ -1,9 +1,11 @@
 //! Reading the data of all screens at once.
 
+use std::collections::BTreeMap;
+
 use crate::messages::snapshot::{Compared, Detail, Focus, Snapshot};
 use engine::enqueue;
 use results::{FitCard, GarmentWorn, assessment};
-use store::{JobFilter, JobId, Result, Store, StudyError, now_ms, read};
+use store::{JobFilter, JobId, Result, Store, StudyError, now_ms, queue, read};
 use wardrobe::catalogue;
 
 /// Reads the data for a focus.
@@ -19,11 +21,14 @@ pub fn snapshot(store: &Store, focus: &Focus) -> Result<Snapshot> {
     let (jobs, ease) = (vec![], vec![]);
     let mut snapshot = Snapshot {
         now_ms: now_ms(),
+        offset_ms: read::local_offset_ms(store, now_ms())?,
         subjects,
         fabrics,
         sizes,
         studies,
         study,
+        runners: vec![],
+        cloths: BTreeMap::new(),
         grid: None,
         jobs,
         ease,
@@ -38,6 +43,8 @@ pub fn snapshot(store: &Store, focus: &Focus) -> Result<Snapshot> {
     snapshot.jobs = read::jobs(store, &JobFilter { study: Some(row.name.clone()), ..JobFilter::default() })?;
     snapshot.ease = read::ease(store, &row.name)?;
     snapshot.grid = grid;
+    snapshot.cloths = read::cloths(store, &snapshot.studies[study].name)?;
+    snapshot.runners = queue::runners(store, &snapshot.studies[study].name)?;
     if let Some(job) = focus.job.filter(|id| snapshot.job(*id).is_some()) {
         snapshot.detail = Some(detail(store, job)?);
     }

@@ -8,14 +8,14 @@ use std::thread;
 use std::time::Duration;
 
 use crate::messages::message::Message;
-use engine::{RunOptions, run};
+use engine::{Ending, RunOptions, run};
 use store::{Live, StudyError};
 use wardrobe::catalogue;
 
 /// Time between two checks of a run: if it has ended, if it must stop, and for the garment that is watched.
 const POLL: Duration = Duration::from_millis(200);
 
-/// Starts a run and waits until it ends or must stop. Returns a line about its end.
+/// Starts a run and waits until it ends or must stop. Returns the numbers of its jobs by their states then.
 pub fn follow(
     database: &Path,
     study: &Path,
@@ -37,8 +37,7 @@ pub fn follow(
         }
         thread::sleep(POLL);
     }
-    let is_stopped = stop.load(Ordering::Relaxed);
+    let planned = run.planned.clone();
     run.join()?;
-    let end = if is_stopped { "is stopped" } else { "has ended" };
-    Ok(format!("the run of {} {end}", study.name))
+    Ok(Ending::of(&store, &study.name, &planned)?.to_string())
 }

@@ -4,7 +4,7 @@ use ratatui::text::Span;
 
 use fit::Simulator;
 use spec::bodies::Sex;
-use store::{JobRow, Status};
+use store::{JobProgress, JobRow, Status};
 use wardrobe::SubjectRow;
 
 /// Width of a text in columns.
@@ -132,9 +132,21 @@ pub fn sex(subject: &SubjectRow) -> &'static str {
 #[must_use]
 pub fn status(status: Status) -> &'static str {
     match status {
-        Status::NotConverged => "not converged",
+        Status::NotConverged => "not at rest",
         other => other.as_str(),
     }
+}
+
+/// EI as lists show it.
+#[must_use]
+pub fn ei(value: f64) -> String {
+    format!("{value:.4}")
+}
+
+/// Phase and share done of a running job.
+#[must_use]
+pub fn progress(progress: &JobProgress) -> String {
+    format!("{} {:.0}%", left(&progress.phase, 5), progress.fraction * 100.0)
 }
 
 /// Share, 0 to 1, as a bar of `columns` columns.
@@ -205,7 +217,7 @@ fn resampled(values: &[f64], columns: usize) -> Vec<f64> {
 pub fn why(job: &JobRow, paused: bool) -> String {
     match job.status {
         Status::Failed => job.error.clone().unwrap_or_else(|| "failed".into()),
-        Status::NotConverged => "not at rest".into(),
+        Status::NotConverged => status(job.status).into(),
         Status::Queued if paused => "study is paused".into(),
         Status::Queued => {
             let reason = job.error.clone().unwrap_or_else(|| "waits".into());
@@ -219,6 +231,18 @@ pub fn why(job: &JobRow, paused: bool) -> String {
         Status::Running if job.attempts > 1 => format!("attempt {}", job.attempts),
         Status::Running => "in work".into(),
         Status::Done => "converged".into(),
+    }
+}
+
+/// Zone of times with an offset from UTC in ms.
+#[must_use]
+pub fn zone(offset_ms: i64) -> String {
+    let minutes = offset_ms / 60_000;
+    let sign = if minutes < 0 { '−' } else { '+' };
+    match (minutes.abs() / 60, minutes.abs() % 60) {
+        (0, 0) => "UTC".to_owned(),
+        (hours, 0) => format!("UTC{sign}{hours}"),
+        (hours, minutes) => format!("UTC{sign}{hours}:{minutes:02}"),
     }
 }
 
@@ -254,16 +278,6 @@ fn broken(word: &str, columns: usize) -> Vec<String> {
         }
     }
     pieces
-}
-
-/// Text as one word of a shell's command line.
-#[must_use]
-pub fn quoted(text: &str) -> String {
-    let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "_-./+@%".contains(letter);
-    if !text.is_empty() && text.chars().all(is_plain) {
-        return text.to_owned();
-    }
-    format!("'{}'", text.replace('\'', "'\\''"))
 }
 
 /// Percentile as a mark on a line of `columns` columns, with the median in the middle.
@@ -322,12 +336,11 @@ mod tests {
     }
 
     #[test]
-    fn words_of_a_shell_are_quoted() {
-        let check = |text: &str, expect: &str| assert_eq!(quoted(text), expect);
-        check("studies/a-b_1.toml", "studies/a-b_1.toml");
-        check("my shirt", "'my shirt'");
-        check("anna's", "'anna'\\''s'");
-        check("", "''");
+    fn zones_are_told_from_utc() {
+        let check = |hours: f64, expect: &str| assert_eq!(zone((hours * 3_600_000.0) as i64), expect);
+        check(0.0, "UTC");
+        check(2.0, "UTC+2");
+        check(-3.5, "UTC−3:30");
     }
 
     #[test]

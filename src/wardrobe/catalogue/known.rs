@@ -14,7 +14,7 @@ use sim::{self, Fabric};
 use spec::entry::Entry;
 use spec::file::{Known, KnownSize, KnownStyle, ScanFile, SizeFile};
 use spec::{FABRIC_NUMBERS, MEASUREMENTS, Person};
-use store::files::SourceFile;
+use store::files::{self, SourceFile};
 use store::{Result, SizeKey, Store, StudyError, SubjectId};
 
 /// The twelve subjects of the thesis [T tables 6-1 to 6-4].
@@ -222,7 +222,7 @@ pub(super) fn missing(connection: &Connection, part: Part, name: &str) -> Result
 /// Removes an entry. A built-in entry, and one that jobs use, is only hidden. A style is removed with its sizes.
 ///
 /// # Errors
-/// When no entry has the name, or the database is open read-only.
+/// When no entry has the name, jobs wait or run with it, or the database is open read-only.
 pub fn remove(transaction: &Transaction<'_>, part: Part, name: &str) -> Result<Removed> {
     if revision::current(transaction, part, name)?.is_none_or(|current| current.is_retired) {
         return Err(missing(transaction, part, name)?);
@@ -236,6 +236,19 @@ pub fn remove(transaction: &Transaction<'_>, part: Part, name: &str) -> Result<R
     let named = if part == Part::Size { "size.style || '/' || size.name" } else { &format!("{table}.name") };
     let sql = format!("SELECT count(*) FROM job JOIN {table} USING ({table}_id) WHERE {named} = ?");
     let jobs: i64 = transaction.query_row(&sql, [name], |row| row.get(0))?;
+    let open = "SELECT study.name, count(*) FROM job JOIN study USING (study_id) JOIN";
+    let open = format!(
+        "{open} {table} USING ({table}_id) WHERE {named} = ? AND status IN ('queued', 'running')
+        AND is_current GROUP BY study.name"
+    );
+    let waiting: Option<(String, i64)> =
+        transaction.query_row(&open, [name], |row| Ok((row.get(0)?, row.get(1)?))).optional()?;
+    if let Some((study, jobs)) = waiting {
+        let word = files::word(&study);
+        let problem =
+            format!("{jobs} jobs of {study} wait or run with it; `toile queue cancel --study {word}` ends them");
+        return Err(StudyError::Refused { what: part.as_str(), name: name.to_owned(), problems: vec![problem] });
+    }
     let is_built_in = match part {
         Part::Subject => thesis_subjects()?.iter().any(|(built_in, _)| built_in == name),
         Part::Fabric => sim::fabric::library().iter().any(|cloth| cloth.name == name),

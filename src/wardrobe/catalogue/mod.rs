@@ -328,7 +328,7 @@ fn save_entry<T: Stored>(store: &mut Store, mode: Mode, name: &str, entry: &T) -
 /// Removes an entry. A built-in entry, and one that jobs use, is only hidden. A style is removed with its sizes.
 ///
 /// # Errors
-/// When no entry has the name, or the database is open read-only.
+/// When no entry has the name, jobs wait or run with it, or the database is open read-only.
 pub fn remove(store: &mut Store, part: Part, name: &str) -> Result<Removed> {
     let transaction = store::write(store.writer()?)?;
     let removed = known::remove(&transaction, part, name)?;

@@ -7,9 +7,9 @@ use crate::catalogue::format::text_of;
 use crate::catalogue::{Part, check_name};
 use geom::units::significant;
 use pattern::table::{self, Row};
-use spec::Given;
 use spec::entry::{Entry, filled, keys};
 use spec::file::Placed;
+use spec::{Given, decimal};
 use store::{Problem, nearest};
 
 /// Entries read from a file.
@@ -101,8 +101,8 @@ impl Column {
 
     /// Value of a cell, in the unit of the key; a text that is no number stays as it is.
     fn value(&self, cell: &str) -> String {
-        match cell.parse::<f64>() {
-            Ok(number) if self.factor != 1.0 => significant(number * self.factor, 9),
+        match decimal(cell) {
+            Some(number) if self.factor != 1.0 => significant(number * self.factor, 9),
             _ => cell.to_owned(),
         }
     }

@@ -35,19 +35,34 @@ pub fn recommended(state: &State) -> Option<&RecommendationRow> {
     data.recommendations.iter().find(|row| row.garment == job.garment && row.class == class)
 }
 
-/// Marks a run for a comparison, or takes the mark away.
+/// Marks a run, or takes the mark away.
 pub fn mark_run(state: &mut State) {
     let Some(id) = state.job().map(|job| job.id) else { return state.say("no job is selected") };
-    if !state.marks.remove(&id) {
-        if state.marks.len() == MOST {
-            return state.say(format!("{MOST} runs are selected already; u takes all back"));
-        }
-        state.marks.insert(id);
-    }
+    state.marks.toggle(id);
+    tell_marks(state);
+}
+
+/// Marks the shown runs from the one that was marked last to the selected one.
+pub fn mark_range(state: &mut State, shown: &[JobId]) {
+    let Some(id) = state.job().map(|job| job.id) else { return state.say("no job is selected") };
+    state.marks.extend_to(shown, id);
+    tell_marks(state);
+}
+
+/// Marks all shown runs, or takes their marks away.
+pub fn mark_all(state: &mut State, shown: &[JobId]) {
+    state.marks.toggle_all(shown);
+    tell_marks(state);
+}
+
+fn tell_marks(state: &mut State) {
     state.say(match state.marks.len() {
         0 => "no run is selected".to_owned(),
-        1 => "1 run is selected; another, then c compares".to_owned(),
-        n => format!("{n} runs are selected; c compares, u takes all back"),
+        1 => "1 run is selected; another, then c compares, x cancels, r retries".to_owned(),
+        n if n > MOST => {
+            format!("{n} runs are selected; x cancels, r retries, c compares the first {MOST}, u takes all back")
+        }
+        n => format!("{n} runs are selected; c compares, x cancels, r retries, u takes all back"),
     });
 }
 
@@ -64,7 +79,7 @@ impl CompareScreen {
         let filter = state.filter_of(Screen::Compare);
         let mut rows = comparison_rows(compared(state));
         rows.retain(|row| !self.differences_only || row.differs());
-        rows.retain(|row| format!("#{} {}", row.no, row.name).to_lowercase().contains(&filter));
+        rows.retain(|row| row.words().to_lowercase().contains(&filter));
         if self.sorts_by_difference {
             let spread = |row: &ComparisonRow| {
                 let known = || row.chi.iter().flatten();

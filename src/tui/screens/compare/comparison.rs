@@ -25,6 +25,13 @@ pub struct ComparisonRow {
 }
 
 impl ComparisonRow {
+    /// Text to which the filter applies: what its line shows.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let chi: Vec<String> = self.chi.iter().flatten().map(|chi| format!("{chi:.3}")).collect();
+        format!("#{} {} {} {}", self.no, self.name, text::mm(self.l2d_m), chi.join(" "))
+    }
+
     /// True if the runs differ in the measurement.
     #[must_use]
     pub fn differs(&self) -> bool {

@@ -1,5 +1,7 @@
 //! Drawing a comparison.
 
+use std::ops::Range;
+
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::Style;
@@ -99,10 +101,16 @@ impl CompareScreen {
         } else {
             " d differences only  ◂ nearest to 1 "
         };
-        let block = pane(state.theme, title(runs), !state.in_second_pane())
+        let columns = Columns::new(&rows, runs.len(), self.left_of, usize::from(jump::inside(area).width));
+        let Range { start, end } = columns.runs;
+        let part = if end - start < runs.len() {
+            format!(", {} to {end} shown, h l others", start + 1)
+        } else {
+            String::new()
+        };
+        let block = pane(state.theme, title(runs) + &part, !state.in_second_pane())
             .title_bottom(Line::styled(legend, state.theme.legend()).right_aligned());
         let inner = block.inner(area);
-        let columns = Columns::new(&rows, runs.len(), usize::from(inner.width));
         let mut lines = self.header(state, runs, &columns).to_vec();
         let room = usize::from(inner.height).saturating_sub(lines.len());
         let selection = state.theme.selection(!state.in_second_pane());
@@ -121,7 +129,7 @@ impl CompareScreen {
         let names = labels(&jobs);
         let start = format!("{} {}{}", right("#", 2), left("measurement", columns.name), right("L2D mm", 8));
         let over = |cells: Vec<String>| cells.iter().map(|cell| right(cell, RUN)).collect::<String>();
-        let names = names.iter().take(columns.runs).map(|name| format!("{name}  ")).collect();
+        let names = names[columns.runs.clone()].iter().map(|name| format!("{name}  ")).collect();
         let mark = if self.sorts_by_difference { "▼" } else { "" };
         let delta = if columns.delta { right(&format!("diff{mark}"), DELTA - 2) } else { String::new() };
         let head = format!("{start}{}{delta}", over(names));
@@ -129,7 +137,7 @@ impl CompareScreen {
             let value = |run: &Compared| {
                 run.metrics.as_ref().map_or("—  ".to_owned(), |metrics| format!("{:.4}  ", number(metrics)))
             };
-            runs.iter().take(columns.runs).map(value).collect()
+            runs[columns.runs.clone()].iter().map(value).collect()
         };
         let blank = 3 + columns.name + 8;
         [
@@ -226,19 +234,26 @@ fn title(runs: &[Compared]) -> String {
 /// Widths of columns; the name takes what the runs leave.
 struct Columns {
     name: usize,
-    /// Number of runs that fit.
-    runs: usize,
+    /// Runs that are shown.
+    runs: Range<usize>,
     delta: bool,
 }
 
+/// Number of runs that fit into the table.
+pub fn runs_shown(area: Rect, state: &State) -> usize {
+    let width = panes(area, state).table.map_or(0, |table| jump::inside(table).width);
+    Columns::new(&[], compared(state).len(), 0, usize::from(width)).runs.len()
+}
+
 impl Columns {
-    fn new(rows: &[ComparisonRow], runs: usize, width: usize) -> Self {
+    fn new(rows: &[ComparisonRow], runs: usize, left_of: usize, width: usize) -> Self {
         let longest = rows.iter().map(|row| text::width(&row.name)).max().unwrap_or(0).max(11) + 1;
         // Runs matter more than their difference, which is left out first.
         let delta = runs == 2 && width >= FIXED + LEAST_NAME + 2 * RUN + DELTA;
         let taken = FIXED + if delta { DELTA } else { 0 };
-        let runs = runs.min((width.saturating_sub(taken + LEAST_NAME) / RUN).max(1));
-        Self { name: width.saturating_sub(taken + runs * RUN).clamp(6, longest), runs, delta }
+        let shown = runs.min((width.saturating_sub(taken + LEAST_NAME) / RUN).max(1));
+        let first = left_of.min(runs - shown);
+        Self { name: width.saturating_sub(taken + shown * RUN).clamp(6, longest), runs: first..first + shown, delta }
     }
 }
 
@@ -246,7 +261,7 @@ fn line(state: &State, row: &ComparisonRow, columns: &Columns) -> Line<'static> 
     let start =
         format!("{} {}{}", right(&row.no.to_string(), 2), left(&row.name, columns.name), right(&mm(row.l2d_m), 8));
     let mut spans = vec![Span::raw(start)];
-    for (k, chi) in row.chi.iter().enumerate().take(columns.runs) {
+    for (k, chi) in row.chi.iter().enumerate().take(columns.runs.end).skip(columns.runs.start) {
         let mark = if row.nearest() == Some(k) { " ◂" } else { "  " };
         let (text, style) = match chi {
             Some(chi) => (format!("{chi:.3}{mark}"), state.theme.chi(*chi)),

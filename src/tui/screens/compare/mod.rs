@@ -22,6 +22,9 @@ impl Page for CompareScreen {
     fn sideways(&mut self, state: &mut State, step: isize) {
         if state.in_second_pane() {
             state.pictures.turn(step);
+        } else {
+            let last = actions::compared(state).len().saturating_sub(draw::runs_shown(state.body(), state));
+            self.left_of = self.left_of.min(last).saturating_add_signed(step).min(last);
         }
     }
 

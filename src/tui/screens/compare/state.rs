@@ -9,4 +9,6 @@ pub struct CompareScreen {
     pub sorts_by_difference: bool,
     /// Index of the selected row.
     pub row: usize,
+    /// Number of runs that are scrolled away to the left, where not all fit.
+    pub left_of: usize,
 }

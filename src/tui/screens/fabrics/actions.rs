@@ -3,7 +3,7 @@
 use crate::keys::screen::Screen;
 use crate::overlays::entry_form::Form;
 use crate::screens::catalogue;
-use crate::screens::fabrics::state::{FABRIC_SHOWN, FabricOrder, FabricsScreen};
+use crate::screens::fabrics::state::{FABRIC_SHOWN, FACTORS, FabricOrder, FabricsScreen};
 use crate::screens::movement::Movement;
 use crate::screens::state::State;
 use spec::FABRIC_NUMBERS;
@@ -15,7 +15,10 @@ impl FabricsScreen {
     pub fn shown<'a>(&self, state: &'a State) -> Vec<&'a FabricRow> {
         let Some(data) = &state.data else { return vec![] };
         let filter = state.filter_of(Screen::Fabrics);
-        let words = |row: &FabricRow| format!("{} {}", row.fabric.name, row.fabric.source).to_lowercase();
+        let words = |row: &FabricRow| {
+            let numbers = (0..FABRIC_SHOWN.len()).map(|k| number(row, k)).collect::<Vec<_>>().join(" ");
+            format!("{} {} {numbers} {}", row.fabric.name, marks(row), row.fabric.source).to_lowercase()
+        };
         let mut fabrics: Vec<&FabricRow> = data.fabrics.iter().filter(|row| words(row).contains(&filter)).collect();
         if let FabricOrder::Number(k) = self.order.by {
             let field = &FABRIC_NUMBERS[FABRIC_SHOWN[k]];
@@ -46,6 +49,7 @@ impl FabricsScreen {
         let shown = self.shown(state);
         let next = shown.get(movement.from(self.index_in(&shown), shown.len()));
         self.chosen = next.map(|row| row.fabric.name.clone());
+        self.is_picked = true;
     }
 
     /// Opens the form for a new fabric, with the values of the selected one.
@@ -68,11 +72,13 @@ impl FabricsScreen {
         self.selected(state).map(|row| Form::of_fabric(row, mode, all))
     }
 
-    /// Removes the selected fabric, after a question.
+    /// Removes the marked fabrics or the selected one, after a question.
     pub fn remove(&self, state: &mut State) {
         if catalogue::may_change(state, Part::Fabric) {
-            let name = self.selected(state).map(|row| row.fabric.name.clone());
-            catalogue::remove(state, Part::Fabric, name);
+            let selected = self.selected(state).map(|row| row.fabric.name.clone());
+            let marked: Vec<String> = self.marks.iter().cloned().collect();
+            let names = if marked.is_empty() { selected.into_iter().collect() } else { marked };
+            catalogue::remove(state, Part::Fabric, names);
         }
     }
 
@@ -83,5 +89,30 @@ impl FabricsScreen {
         let values =
             FABRIC_NUMBERS.iter().map(|field| field.get(fabric).map_or(String::new(), |value| value.to_string()));
         Some(format!("{}\t{}\t{}", fabric.name, values.collect::<Vec<_>>().join("\t"), fabric.source))
+    }
+}
+
+/// Marks of a fabric: the user's own, stiffens, coupled, a class.
+#[must_use]
+pub fn marks(row: &FabricRow) -> String {
+    let mark = |is_on: bool, mark: char| if is_on { mark } else { ' ' };
+    let (law, is_coupled) = (row.fabric.stretched, row.fabric.membrane_coupling_n_m != 0.0);
+    [mark(row.is_own, '+'), mark(law.is_some(), 's'), mark(is_coupled, 'c'), mark(row.is_class(), '~')].iter().collect()
+}
+
+/// Number of a fabric as the list shows it, by its index in [`FABRIC_SHOWN`].
+#[must_use]
+pub fn number(row: &FabricRow, k: usize) -> String {
+    let value = FABRIC_NUMBERS[FABRIC_SHOWN[k]].get(&row.fabric);
+    value.map_or("—".to_owned(), |value| in_four(value * FACTORS[k]))
+}
+
+/// A number in at most six columns.
+#[must_use]
+pub fn in_four(value: f64) -> String {
+    match value.abs() {
+        v if v >= 100.0 => format!("{value:.0}"),
+        v if v >= 1.0 => format!("{value:.1}"),
+        _ => format!("{value:.2}"),
     }
 }

@@ -8,6 +8,7 @@ use ratatui::widgets::{Axis, Chart, Dataset, GraphType, Paragraph};
 
 use crate::overlays::entry_form::{fabric_label, unit_of};
 use crate::overlays::explanation::Selected;
+use crate::screens::fabrics::actions::{in_four, marks, number};
 use crate::screens::fabrics::state::{FABRIC_SHOWN, FabricOrder, FabricsScreen};
 use crate::screens::page::Draw;
 use crate::screens::state::State;
@@ -18,16 +19,9 @@ use crate::widgets::text::{self, left, place_bar, right, shortened, wrapped};
 use spec::FABRIC_NUMBERS;
 use wardrobe::FabricRow;
 
-/// Columns of numbers in the list: heading, width, and factor by which numbers are multiplied for reading.
-const HEADINGS: [(&str, usize, f64); FABRIC_SHOWN.len()] = [
-    ("g/m²", 6, 1e3),
-    ("mm", 6, 1.0),
-    ("warp", 7, 1.0),
-    ("weft", 7, 1.0),
-    ("shear", 7, 1.0),
-    ("b.warp", 7, 1e6),
-    ("b.weft", 7, 1e6),
-];
+/// Columns of numbers in the list: heading and width.
+const HEADINGS: [(&str, usize); FABRIC_SHOWN.len()] =
+    [("g/m²", 6), ("mm", 6), ("warp", 7), ("weft", 7), ("shear", 7), ("b.warp", 7), ("b.weft", 7)];
 
 /// Columns for marks after a name, and fewest for a name.
 const MARKS: usize = 5;
@@ -127,7 +121,7 @@ impl FabricsScreen {
     fn list(&self, state: &State, width: u16, height: u16, focused: bool) -> Vec<Line<'static>> {
         let fabrics = self.shown(state);
         let width = usize::from(width);
-        let numbers = |shown: usize| HEADINGS.iter().take(shown).map(|(_, columns, _)| columns).sum::<usize>();
+        let numbers = |shown: usize| HEADINGS.iter().take(shown).map(|(_, columns)| columns).sum::<usize>();
         let shown = (0..=HEADINGS.len()).rev().find(|n| LEAST_NAME + MARKS + numbers(*n) <= width).unwrap_or(0);
         let longest = fabrics.iter().map(|row| text::width(&row.fabric.name)).max().unwrap_or(0);
         let name = width.saturating_sub(MARKS + numbers(shown)).min(longest.max(LEAST_NAME));
@@ -146,7 +140,8 @@ impl FabricsScreen {
             state.theme.selection(focused),
             |row| {
                 let tail = if follows { tail(row) } else { String::new() };
-                Line::raw(shortened(&(list_line(row, name, shown) + &tail), width))
+                let line = list_line(row, self.marks.has(&row.fabric.name), name, shown);
+                Line::raw(shortened(&(line + &tail), width))
             },
         ));
         if fabrics.is_empty() {
@@ -157,27 +152,18 @@ impl FabricsScreen {
 
     fn header(&self, name: usize, shown: usize) -> String {
         let mut text = left(&self.order.titled("fabric", FabricOrder::Name), name + MARKS);
-        for (k, (title, columns, _)) in HEADINGS.iter().take(shown).enumerate() {
+        for (k, (title, columns)) in HEADINGS.iter().take(shown).enumerate() {
             text += &right(&self.order.titled(title, FabricOrder::Number(k)), *columns);
         }
         text
     }
 }
 
-fn list_line(row: &FabricRow, name: usize, shown: usize) -> String {
-    let mark = |is_on: bool, mark: char| if is_on { mark } else { ' ' };
-    let marks: String = [
-        mark(row.is_own, '+'),
-        mark(row.fabric.stretched.is_some(), 's'),
-        mark(row.fabric.membrane_coupling_n_m != 0.0, 'c'),
-        mark(row.is_class(), '~'),
-    ]
-    .iter()
-    .collect();
-    let mut text = format!("{} {marks}", left(&row.fabric.name, name));
-    for (k, (_, columns, factor)) in FABRIC_SHOWN.iter().zip(HEADINGS).take(shown) {
-        let value = FABRIC_NUMBERS[*k].get(&row.fabric);
-        text += &right(&value.map_or("—".to_owned(), |value| in_four(value * factor)), columns);
+fn list_line(row: &FabricRow, is_marked: bool, name: usize, shown: usize) -> String {
+    let mark = if is_marked { "•" } else { " " };
+    let mut text = format!("{}{mark}{}", left(&row.fabric.name, name), marks(row));
+    for (k, (_, columns)) in HEADINGS.into_iter().enumerate().take(shown) {
+        text += &right(&number(row, k), columns);
     }
     text
 }
@@ -189,15 +175,6 @@ fn tail(row: &FabricRow) -> String {
     let ranks = row.fabric.standings().map(|standing| standing.to_string());
     let both = |[along, across]: [String; 2]| if along == across { along } else { format!("{along}/{across}") };
     [lengths, ranks].into_iter().zip(FOLLOWS).map(|(values, (_, columns))| right(&both(values), columns)).collect()
-}
-
-/// A number in at most six columns.
-fn in_four(value: f64) -> String {
-    match value.abs() {
-        v if v >= 100.0 => format!("{value:.0}"),
-        v if v >= 1.0 => format!("{value:.1}"),
-        _ => format!("{value:.2}"),
-    }
 }
 
 /// All numbers with units and their ranks in the catalogue; then the quantities that follow from them.

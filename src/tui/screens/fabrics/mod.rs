@@ -6,6 +6,7 @@ mod draw;
 pub mod state;
 
 use crate::keys::action::Action;
+use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::screens::catalogue;
 use crate::screens::fabrics::state::FabricsScreen;
@@ -36,6 +37,8 @@ impl Page for FabricsScreen {
     }
 
     fn receive(&mut self, state: &State) {
+        let all = state.data.as_ref().map_or(&[][..], |data| &data.fabrics);
+        self.marks.keep(|name| all.iter().any(|row| row.fabric.name == *name));
         self.chosen = self.selected(state).map(|row| row.fabric.name.clone());
     }
 
@@ -44,6 +47,13 @@ impl Page for FabricsScreen {
     }
 
     fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {
+        if state.nav.screen == Screen::Fabrics {
+            let shown: Vec<String> = self.shown(state).iter().map(|row| row.fabric.name.clone()).collect();
+            let marked = catalogue::mark(state, &mut self.marks, action, &shown, self.chosen.as_ref());
+            if marked.is_some() {
+                return marked;
+            }
+        }
         match action {
             Action::Add(Part::Fabric) => self.add(state),
             Action::Edit(Part::Fabric) => self.edit(state),

@@ -28,8 +28,13 @@ pub fn worn(state: &State) -> Option<&GarmentWorn> {
 /// Levels of the fit card that pass the filter.
 #[must_use]
 pub fn card_levels(state: &State) -> Vec<&str> {
-    let mut levels = worn(state).map_or(vec![], |worn| worn.card.levels());
-    levels.retain(|level| passes(state, &words(level)));
+    let Some(card) = worn(state).map(|worn| &worn.card) else { return vec![] };
+    let sits = |level: &str| {
+        let of_level = card.sizes.iter().flat_map(|size| &size.levels).filter(|sits| sits.level == level);
+        of_level.map(|sits| format!("{:+.0} {}", sits.ease_mm, sits.words())).collect::<Vec<_>>().join(" ")
+    };
+    let mut levels = card.levels();
+    levels.retain(|level| passes(state, &format!("{} {}", words(level), sits(level))));
     levels
 }
 
@@ -37,14 +42,15 @@ pub fn card_levels(state: &State) -> Vec<&str> {
 #[must_use]
 pub fn quantities_shown(state: &State) -> Vec<Quantity> {
     let mut rows = worn(state).map_or(vec![], |worn| quantities(&worn.sizes));
-    rows.retain(|row| passes(state, &row.name));
+    let cells = |row: &Quantity| row.cells.iter().flatten().cloned().collect::<Vec<_>>().join(" ");
+    rows.retain(|row| passes(state, &format!("{} {}", row.name, cells(row))));
     rows
 }
 
-/// True if a name passes the filter.
+/// True if the text of a row passes the filter.
 #[must_use]
-pub fn passes(state: &State, name: &str) -> bool {
-    name.to_lowercase().contains(&state.filter_of(Screen::Fit))
+pub fn passes(state: &State, text: &str) -> bool {
+    text.to_lowercase().contains(&state.filter_of(Screen::Fit))
 }
 
 impl FitScreen {

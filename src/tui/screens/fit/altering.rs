@@ -9,11 +9,12 @@ use crate::screens::fit::actions::worn;
 use crate::screens::fit::state::{Alter, Draping};
 use crate::screens::movement::Movement;
 use crate::screens::state::State;
-use crate::widgets::text::{duration, quoted};
+use crate::widgets::text::duration;
 use advice::Alteration;
 use fit::Simulator;
 use report::file_part;
 use store::JobRow;
+use store::files::word;
 
 /// Message while no alteration is shown.
 const CLOSED: &str = "a finds what to change first";
@@ -149,11 +150,11 @@ impl Alter {
     pub fn command(&self, state: &State) -> Option<String> {
         let (asked, found) = (self.asked.as_ref()?, self.found()?);
         let database = state.setup.database.as_ref();
-        let database = database.map_or(String::new(), |path| format!(" --db {}", quoted(&path.display().to_string())));
-        let study = quoted(&asked.study.display().to_string());
-        let [subject, size, garment] = [&asked.subject, &asked.size, &asked.garment].map(|name| quoted(name));
+        let database = database.map_or(String::new(), |path| format!(" --db {}", word(&path.display().to_string())));
+        let study = word(&asked.study.display().to_string());
+        let [subject, size, garment] = [&asked.subject, &asked.size, &asked.garment].map(|name| word(name));
         let drape = if found.drape.is_some() { " --drape" } else { "" };
-        let folder = quoted(&folder(found));
+        let folder = word(&folder(found));
         Some(format!(
             "toile{database} alter {study} --subject {subject} --size {size} --garment {garment}{drape} -o {folder}"
         ))

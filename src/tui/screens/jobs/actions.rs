@@ -9,6 +9,7 @@ use crate::screens::state::State;
 use crate::widgets::text;
 use engine::why_no_retry;
 use sim::Step;
+use store::owner::Runner;
 use store::{JobId, JobRow};
 
 /// Message where there is no job to act on.
@@ -22,10 +23,17 @@ impl JobsScreen {
         self.rows().iter().filter_map(|row| data.jobs.get(*row)).collect()
     }
 
+    /// Numbers of these jobs.
+    #[must_use]
+    pub fn shown_ids(&self, state: &State) -> Vec<JobId> {
+        self.shown(state).iter().map(|job| job.id).collect()
+    }
+
     /// Filters and sorts the jobs.
     pub fn arrange(&mut self, state: &State) {
         let Some(data) = &state.data else { return };
-        self.arrange_rows(&data.jobs, state.filter_of(Screen::Jobs));
+        let is_paused = state.study().is_some_and(|study| study.paused);
+        self.arrange_rows(&data.jobs, state.filter_of(Screen::Jobs), is_paused);
     }
 
     /// Selects the first job if the selected one does not pass the filter.
@@ -47,7 +55,7 @@ impl JobsScreen {
 
     /// Moves the selection in the list of jobs.
     pub fn go_in_list(&self, state: &mut State, movement: Movement) {
-        let jobs: Vec<JobId> = self.shown(state).iter().map(|job| job.id).collect();
+        let jobs = self.shown_ids(state);
         let at = jobs.iter().position(|id| Some(*id) == state.focus.job);
         let next = at.map_or(0, |at| movement.from(at, jobs.len()));
         if let Some(id) = jobs.get(next) {
@@ -70,33 +78,58 @@ pub fn pause(state: &State) -> Vec<Effect> {
     vec![Effect::Do(if study.paused { Command::Resume(name) } else { Command::Pause(name) })]
 }
 
-/// Cancels the selected job, after a question.
+/// Jobs to act on: the marked ones; without marks, the selected one.
+fn acted_on(state: &State) -> Vec<&JobRow> {
+    let Some(data) = &state.data else { return vec![] };
+    if state.marks.is_empty() { state.job().into_iter().collect() } else { data.jobs_of(state.marks.iter()) }
+}
+
+/// Cancels the marked jobs or the selected one, after a question.
 pub fn cancel(state: &mut State) -> Vec<Effect> {
-    let Some(job) = state.job() else { return state.reply(NO_JOB) };
-    if job.status.is_final() {
-        return state.reply(format!("job {} has ended ({}): nothing to cancel", job.id, text::status(job.status)));
-    }
-    let JobRow { id, garment, size, subject, .. } = job;
-    let text = format!("Cancel job {id}, {garment} {size} on {subject} by {}?", text::sim(job.simulator));
-    let effects = vec![Effect::Do(Command::Cancel(*id))];
+    let jobs = acted_on(state);
+    let open: Vec<&JobRow> = jobs.iter().copied().filter(|job| !job.status.is_final()).collect();
+    let text = match (&jobs[..], &open[..]) {
+        ([], _) => return state.reply(NO_JOB),
+        ([job], []) => {
+            return state.reply(format!("job {} has ended ({}): nothing to cancel", job.id, text::status(job.status)));
+        }
+        (_, []) => return state.reply(format!("all {} selected jobs have ended: nothing to cancel", jobs.len())),
+        ([job], _) => {
+            let JobRow { id, garment, size, subject, .. } = job;
+            format!("Cancel job {id}, {garment} {size} on {subject} by {}?", text::sim(job.simulator))
+        }
+        _ => format!("Cancel {} of the {} selected jobs? The others have ended.", open.len(), jobs.len()),
+    };
+    let effects = vec![Effect::Do(Command::Cancel(open.iter().map(|job| job.id).collect()))];
     state.ask(text, effects);
     vec![]
 }
 
-/// Queues the selected job again.
+/// Queues the marked jobs or the selected one again.
 pub fn retry(state: &mut State) -> Vec<Effect> {
-    let Some(job) = state.job() else { return state.reply(NO_JOB) };
-    let id = job.id;
-    if let Some(reason) = why_no_retry(job.status) {
-        return state.reply(format!("job {id} is not run again: {reason}"));
+    let jobs = acted_on(state);
+    let ended: Vec<JobId> = jobs.iter().filter(|job| why_no_retry(job.status).is_none()).map(|job| job.id).collect();
+    match (&jobs[..], ended.is_empty()) {
+        ([], _) => state.reply(NO_JOB),
+        ([job], true) => {
+            let reason = why_no_retry(job.status).unwrap_or_default();
+            state.reply(format!("job {} is not run again: {reason}", job.id))
+        }
+        (_, true) => state.reply(format!(
+            "none of the {} selected jobs failed or was cancelled; u takes the selection back",
+            jobs.len()
+        )),
+        (_, false) => vec![Effect::Do(Command::Retry(ended))],
     }
-    vec![Effect::Do(Command::Retry(id))]
 }
 
-/// Adds a step to the priority of the selected job.
+/// Adds a step to the priority of the marked jobs or the selected one.
 pub fn prioritise(state: &mut State, step: i64) -> Vec<Effect> {
-    let Some(job) = state.job() else { return state.reply(NO_JOB) };
-    vec![Effect::Do(Command::Prioritise(job.id, job.priority + step))]
+    let jobs = acted_on(state);
+    if jobs.is_empty() {
+        return state.reply(NO_JOB);
+    }
+    jobs.iter().map(|job| Effect::Do(Command::Prioritise(job.id, job.priority + step))).collect()
 }
 
 /// Runs the study; without a study, the quickstart.
@@ -111,8 +144,16 @@ pub fn start_run(state: &mut State) -> Vec<Effect> {
 
 /// Stops the run, after a question.
 pub fn stop_run(state: &mut State) -> Vec<Effect> {
+    let others: &[Runner] = state.data.as_ref().map_or(&[], |data| &data.runners);
     if state.running.target.is_none() {
-        state.say("no run goes on here");
+        let of = |runner: &Runner| {
+            let jobs = if runner.jobs == 1 { "1 job".to_owned() } else { format!("{} jobs", runner.jobs) };
+            let stop = runner.pid.map_or("it is stopped there".to_owned(), |pid| format!("`kill {pid}` stops it"));
+            format!("{} runs {jobs}: {stop}", runner.name)
+        };
+        let others: Vec<String> = others.iter().map(of).collect();
+        let text = if others.is_empty() { "no job of it runs anywhere".to_owned() } else { others.join("; ") };
+        state.say(format!("no run goes on here; {text}"));
     } else {
         state.ask("Stop the run? Unfinished jobs go back to the queue.", vec![Effect::StopRun]);
     }

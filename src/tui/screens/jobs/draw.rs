@@ -101,7 +101,7 @@ impl JobsScreen {
 
     fn draw_log(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
         let title = match state.job() {
-            Some(job) => format!("log of job {} (UTC)", job.id),
+            Some(job) => format!("log of job {} ({})", job.id, text::zone(state.offset_ms())),
             None => "log".into(),
         };
         let block = pane(state.theme, title, state.in_second_pane());
@@ -178,6 +178,9 @@ fn panes(area: Rect) -> [Rect; 2] {
 const NAMES: [&str; 13] =
     ["status", "EI", "progress", "ETA", "took", "why", "ID", "style", "size", "subj", "sim", "log residual", "E(chi)"];
 
+/// Columns for reasons that names do not take: "process 12345 on a machine ended before the job did" begins in them.
+const WHY: usize = 24;
+
 /// Width of phase and percentage, in characters.
 const PROGRESS: usize = 10;
 
@@ -199,12 +202,13 @@ impl Columns {
         let longest = |field: fn(&JobRow) -> &str, least, most: usize| {
             jobs.iter().map(|job| text::width(field(job))).max().unwrap_or(0).clamp(least, most)
         };
-        let (garment, subject) = if width >= 120 { (20, 14) } else { (9, 7) };
-        let garment = longest(|job| &job.garment, 5, garment);
-        let size = longest(|job| &job.size, 4, 6);
-        let subject = longest(|job| &job.subject, 4, subject);
         let bar = if width >= 120 { 14 } else { 0 };
         let id = longest_id(jobs);
+        // Names take what the reasons can spare.
+        let names = width.saturating_sub(Self::FIXED + id + 3 + bar + WHY);
+        let garment = longest(|job| &job.garment, 5, (names / 2).max(9));
+        let size = longest(|job| &job.size, 4, (names / 6).max(6));
+        let subject = longest(|job| &job.subject, 4, names.saturating_sub(garment + size).max(7));
         let used = Self::FIXED + id + garment + size + subject + 3 + bar;
         Self { id, garment, size, subject, bar, why: width.saturating_sub(used) }
     }
@@ -220,7 +224,7 @@ fn line(state: &State, job: &JobRow, columns: &Columns) -> Line<'static> {
     let is_paused = state.study().is_some_and(|study| study.paused);
     let elapsed = job.started_at_ms.filter(|_| job.status == Status::Running).map(|start| now - start);
     let progress = job.progress.as_ref().map_or(String::new(), |progress| {
-        let share = format!("{} {:.0}%", left(&progress.phase, 5), progress.fraction * 100.0);
+        let share = text::progress(progress);
         let bar = text::progress_bar(progress.fraction, columns.bar.saturating_sub(1));
         if columns.bar > 0 { format!("{bar} {share}") } else { share }
     });
@@ -242,14 +246,14 @@ fn line(state: &State, job: &JobRow, columns: &Columns) -> Line<'static> {
             "{}{}{}  ",
             right(&time(job.eta_ms(now)), 6),
             right(&time(job.wall_ms.or(elapsed)), 7),
-            right(&job.ei.map_or("—".to_owned(), |ei| format!("{ei:.4}")), 8)
+            right(&job.ei.map_or("—".to_owned(), text::ei), 8)
         )),
         Span::styled(text::shortened(&why, columns.why), status),
     ])
 }
 
 fn log_line(state: &State, line: &LogLine, width: usize) -> Line<'static> {
-    let seconds = line.at_ms.div_euclid(1000).rem_euclid(86_400);
+    let seconds = (line.at_ms + state.offset_ms()).div_euclid(1000).rem_euclid(86_400);
     let (style, mark) = match line.level.as_str() {
         "error" => (state.theme.bad(), "✗"),
         "warn" => (state.theme.warn(), "!"),

@@ -5,7 +5,9 @@ mod draw;
 pub mod state;
 
 use crate::keys::action::Action;
+use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
+use crate::screens::compare::actions::{mark_all, mark_range};
 use crate::screens::jobs::state::JobsScreen;
 use crate::screens::movement::Movement;
 use crate::screens::page::{Copied, Page};
@@ -45,6 +47,14 @@ impl Page for JobsScreen {
             Action::Lower => actions::prioritise(state, -1),
             Action::Run => actions::start_run(state),
             Action::Stop => actions::stop_run(state),
+            Action::MarkRange if state.nav.screen == Screen::Jobs => {
+                mark_range(state, &self.shown_ids(state));
+                vec![]
+            }
+            Action::MarkAll if state.nav.screen == Screen::Jobs => {
+                mark_all(state, &self.shown_ids(state));
+                vec![]
+            }
             _ => return None,
         })
     }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::screens::order::Order;
 use crate::widgets::text;
+use crate::widgets::theme::glyph;
 use sim::Step;
 use store::{JobId, JobRow, Status};
 
@@ -79,12 +80,12 @@ impl JobsScreen {
 
     /// Filters and sorts jobs, if data, filter or order have changed since: with ten thousand jobs this takes too long
     /// for every frame.
-    pub fn arrange_rows(&mut self, jobs: &[JobRow], filter: String) {
+    pub fn arrange_rows(&mut self, jobs: &[JobRow], filter: String, is_paused: bool) {
         let Arranged { reads, filter: arranged, order, .. } = &self.arranged;
         if (*reads, arranged, *order) == (self.reads, &filter, self.order) {
             return;
         }
-        let passes = |row: &usize| filter.is_empty() || words(&jobs[*row]).contains(&filter);
+        let passes = |row: &usize| filter.is_empty() || words(&jobs[*row], is_paused).contains(&filter);
         let mut rows: Vec<usize> = (0..jobs.len()).filter(passes).collect();
         let falling = |value: Option<f64>| value.map_or(f64::INFINITY, |v| -v);
         match self.order.by {
@@ -118,17 +119,21 @@ fn attention(status: Status) -> u8 {
     }
 }
 
-/// Text of a job to which the filter applies.
-fn words(job: &JobRow) -> String {
-    let error = job.error.as_deref().unwrap_or_default();
+/// Text of a job to which the filter applies: what its line shows, in words and signs, and the name of its state.
+fn words(job: &JobRow, is_paused: bool) -> String {
+    let progress = job.progress.as_ref().map_or(String::new(), text::progress);
     format!(
-        "{} {} {} {} {} {} {error}",
+        "{} {} {} {} {} {} {} {progress} {} {} {}",
         job.id,
+        glyph(job.status),
         text::status(job.status),
         job.garment,
         job.size,
         job.subject,
-        text::sim(job.simulator)
+        text::sim(job.simulator),
+        job.wall_ms.map_or(String::new(), text::duration),
+        job.ei.map_or(String::new(), text::ei),
+        text::why(job, is_paused)
     )
     .to_lowercase()
 }

@@ -4,7 +4,7 @@ use ratatui::text::{Line, Span};
 
 use crate::overlays::explanation::Selected;
 use crate::screens::measurements::rows;
-use crate::screens::measurements::state::ChiOrder;
+use crate::screens::measurements::state::{ChiOrder, marks};
 use crate::screens::state::State;
 use crate::widgets::lists::listed;
 use crate::widgets::text::{self, chi_bar, chi_mark, ease_mm, left, mm, right, wrapped};
@@ -70,12 +70,6 @@ fn header(state: &State, columns: &Columns) -> Line<'static> {
         right(&format!("chi{by_error}"), 6),
     );
     Line::styled(text, state.theme.dim())
-}
-
-/// Marks of a measurement, as in [`LEGEND`].
-fn marks(row: &ChiRow) -> String {
-    let marks = [(row.is_girth, '○'), (row.is_free_edge, '~'), (row.is_controlled, '=')];
-    marks.iter().filter(|(is_set, _)| *is_set).map(|(_, mark)| *mark).collect()
 }
 
 fn line(state: &State, row: &ChiRow, columns: &Columns) -> Line<'static> {

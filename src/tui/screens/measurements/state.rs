@@ -2,6 +2,7 @@
 
 use crate::messages::snapshot::Detail;
 use crate::screens::order::Order;
+use crate::widgets::text::mm;
 use store::ChiRow;
 
 /// Order of the table.
@@ -45,7 +46,7 @@ impl Measurements {
     #[must_use]
     pub fn rows<'a>(&self, detail: &'a Detail, filter: &str) -> Vec<&'a ChiRow> {
         let Some(stage) = self.stage(detail) else { return vec![] };
-        let matches = |row: &ChiRow| format!("#{} {}", row.no, row.name).to_lowercase().contains(filter);
+        let matches = |row: &ChiRow| words(row).to_lowercase().contains(filter);
         let mut rows: Vec<&ChiRow> = detail.chi.iter().filter(|row| row.stage == stage && matches(row)).collect();
         if self.order.by == ChiOrder::Error {
             let error = |row: &ChiRow| (row.chi() - 1.0).abs();
@@ -56,6 +57,18 @@ impl Measurements {
         }
         rows
     }
+}
+
+/// Marks of a measurement: girth, free edge, controlled.
+#[must_use]
+pub fn marks(row: &ChiRow) -> String {
+    let marks = [(row.is_girth, '○'), (row.is_free_edge, '~'), (row.is_controlled, '=')];
+    marks.iter().filter(|(is_set, _)| *is_set).map(|(_, mark)| *mark).collect()
+}
+
+/// Text of a measurement to which the filter applies: what its line shows.
+fn words(row: &ChiRow) -> String {
+    format!("#{} {} {} {} {} {:.3}", row.no, row.name, marks(row), mm(row.l2d_m), mm(row.l3d_m), row.chi())
 }
 
 /// Stages of a result, in the order of the simulation.

@@ -8,6 +8,7 @@ use crate::messages::effect::Effect;
 use crate::messages::requests::FileTask;
 use crate::screens::reports::state::ReportsScreen;
 use crate::screens::state::State;
+use crate::widgets::text;
 use results::ReportRow;
 
 impl ReportsScreen {
@@ -15,7 +16,8 @@ impl ReportsScreen {
     #[must_use]
     pub fn shown(&self, state: &State) -> Vec<&ReportRow> {
         let filter = state.filter_of(Screen::Reports);
-        let passes = |row: &&ReportRow| row.name.to_lowercase().contains(&filter);
+        let passes =
+            |row: &&ReportRow| format!("{} {}", row.name, facts(state, row).join(" ")).to_lowercase().contains(&filter);
         let mut rows: Vec<&ReportRow> = self.rows.iter().flatten().filter(passes).collect();
         if self.by_time {
             rows.sort_by_key(|row| -row.written_ms);
@@ -77,9 +79,15 @@ impl ReportsScreen {
         if is_opened(&address) {
             return state.reply(format!("opened {address}"));
         }
-        state.say(format!("no display here; copied {address}"));
-        vec![Effect::Copy(address)]
+        state.copy(format!("{address}, since no display is here"), address)
     }
+}
+
+/// Size of a report's page, number of its files, and time at which it was built.
+#[must_use]
+pub fn facts(state: &State, row: &ReportRow) -> [String; 3] {
+    let built = text::date(row.written_ms + state.offset_ms());
+    [format!("{} kB", row.bytes.div_ceil(1000)), row.files.to_string(), built]
 }
 
 /// Opens an address by the desktop's own program. Returns false where there is no desktop.

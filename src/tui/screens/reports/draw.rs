@@ -6,7 +6,7 @@ use ratatui::text::Line;
 use ratatui::widgets::{Paragraph, Wrap};
 
 use crate::screens::page::Draw;
-use crate::screens::reports::actions::address;
+use crate::screens::reports::actions::{address, facts};
 use crate::screens::reports::state::ReportsScreen;
 use crate::screens::state::State;
 use crate::widgets::jump::{self, Target};
@@ -40,12 +40,13 @@ impl ReportsScreen {
         let width = usize::from(inner.width);
         let name = width.saturating_sub(10 + 8 + 19).clamp(8, 32);
         let mark = if self.by_time { "▼" } else { "" };
-        let head = format!("{}{}{}  built (UTC){mark}", left("study", name), right("page", 10), right("files", 8));
+        let zone = text::zone(state.offset_ms());
+        let head = format!("{}{}{}  built ({zone}){mark}", left("study", name), right("page", 10), right("files", 8));
         let mut lines = vec![Line::styled(shortened(&head, width), state.theme.dim())];
         let room = usize::from(inner.height).saturating_sub(1);
         let at = self.row.min(rows.len().saturating_sub(1));
         lines.extend(listed(&rows, at, room, state.theme.selected(), |row| {
-            Line::raw(shortened(&line(row, name), width))
+            Line::raw(shortened(&line(state, row, name), width))
         }));
         if rows.is_empty() {
             lines.push(no_rows(
@@ -80,13 +81,7 @@ fn panes(area: Rect) -> [Rect; 2] {
     Layout::vertical([Constraint::Fill(1), Constraint::Length(area.height.min(9) / 2 + 3)]).areas(area)
 }
 
-fn line(row: &ReportRow, name: usize) -> String {
-    let page = format!("{} kB", row.bytes.div_ceil(1000));
-    format!(
-        "{}{}{}  {}",
-        left(&row.name, name),
-        right(&page, 10),
-        right(&row.files.to_string(), 8),
-        text::date(row.written_ms)
-    )
+fn line(state: &State, row: &ReportRow, name: usize) -> String {
+    let [page, files, built] = facts(state, row);
+    format!("{}{}{}  {built}", left(&row.name, name), right(&page, 10), right(&files, 8))
 }

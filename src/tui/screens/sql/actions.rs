@@ -8,10 +8,12 @@ use crate::messages::requests::QueryRequest;
 use crate::overlays::Overlay;
 use crate::overlays::path_prompt::{PathPrompt, Purpose};
 use crate::overlays::saved_queries::QueryList;
-use crate::screens::sql::state::{Recalled, SqlScreen};
+use crate::screens::movement::stepped;
+use crate::screens::sql::state::{Queries, Recalled, SqlScreen};
 use crate::screens::state::State;
 use crate::widgets::editor::Mode;
 use crate::widgets::result_table::ResultTable;
+use store::Relation;
 
 /// Most queries in the history.
 const MOST_KEPT: usize = 200;
@@ -36,6 +38,54 @@ impl SqlScreen {
             return false;
         }
         self.editor.key(event, self.relations.as_deref().unwrap_or_default())
+    }
+
+    /// All queries that are being written, with the present text in its place.
+    #[must_use]
+    pub fn queries(&self) -> Queries {
+        let mut queries = self.queries.clone();
+        queries.texts.resize(queries.texts.len().max(queries.at + 1), String::new());
+        self.editor.text().clone_into(&mut queries.texts[queries.at]);
+        queries
+    }
+
+    /// Takes queries that were written before, the present one into the editor.
+    pub fn take_queries(&mut self, mut queries: Queries) {
+        queries.at = queries.at.min(queries.texts.len().saturating_sub(1));
+        self.editor.set(queries.texts.get(queries.at).map_or("", String::as_str));
+        self.queries = queries;
+    }
+
+    /// Begins a new query beside the others.
+    pub fn new_query(&mut self, state: &mut State) {
+        state.show(Screen::Sql);
+        state.nav.second_pane[Screen::Sql as usize] = false;
+        let mut queries = self.queries();
+        queries.texts.retain(|text| !text.trim().is_empty());
+        queries.at = queries.texts.len();
+        queries.texts.push(String::new());
+        self.take_queries(queries);
+    }
+
+    /// Goes to the next or previous query.
+    pub fn step_query(&mut self, state: &mut State, step: isize) {
+        let mut queries = self.queries();
+        match stepped(queries.at, step, queries.texts.len()).filter(|next| *next != queries.at) {
+            Some(next) => {
+                queries.at = next;
+                self.take_queries(queries);
+            }
+            None => state.say("there is one query only; a begins another"),
+        }
+    }
+
+    /// Relations that the query names, as far as they are known.
+    #[must_use]
+    pub fn named(&self) -> Vec<&Relation> {
+        let text = self.editor.text().to_lowercase();
+        let words: Vec<&str> = text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+        let known = self.relations.iter().flatten();
+        known.filter(|relation| words.contains(&relation.name.to_lowercase().as_str())).collect()
     }
 
     /// Requests names and saved queries when the screen is first shown.

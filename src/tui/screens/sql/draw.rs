@@ -13,6 +13,7 @@ use crate::screens::sql::state::SqlScreen;
 use crate::screens::state::State;
 use crate::widgets::editor::{Mode, Offer};
 use crate::widgets::jump::{self, Target};
+use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane};
 use crate::widgets::result_table::{Column, ResultTable, cell_text};
 use crate::widgets::text::{self, left, right, shortened, wrapped};
@@ -27,15 +28,28 @@ const KEYWORDS: [&str; 34] = [
 /// Most words offered at once.
 const OFFERED: usize = 6;
 
+/// Columns of the catalogue.
+const CATALOGUE: u16 = 30;
+
+/// The panes: query, answer, and tables with their columns.
+struct Panes {
+    editor: Rect,
+    result: Rect,
+    catalogue: Option<Rect>,
+}
+
 impl Draw for SqlScreen {
     fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
-        let [editor, result] = self.panes(area);
-        self.draw_result(frame, result, state);
+        let Panes { editor, result, catalogue } = self.panes(area, state);
+        self.draw_result(frame, result, state, catalogue.is_none());
+        if let Some(catalogue) = catalogue {
+            self.draw_catalogue(frame, catalogue, state);
+        }
         self.draw_editor(frame, editor, area, state);
     }
 
     fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
-        let [editor, result] = self.panes(area);
+        let Panes { editor, result, .. } = self.panes(area, state);
         let inner = jump::inside(result);
         let head = 1 + self.refusal(state, inner.width).len();
         let rows = self.table.as_ref().map_or(vec![], |table| jump::rows(1, inner, head, table.len(), table.row));
@@ -52,22 +66,56 @@ impl Draw for SqlScreen {
 }
 
 impl SqlScreen {
-    /// Panes of editor and answer.
-    fn panes(&self, area: Rect) -> [Rect; 2] {
+    /// Panes of editor and answer, and of the catalogue beside the answer: always where there is room, else while the
+    /// query is typed. Before there is anything to stand beside, the answer's pane has all views with their columns.
+    fn panes(&self, area: Rect, state: &State) -> Panes {
         let lines = self.editor.text().matches('\n').count() as u16 + 1;
         let height = (lines + 2).clamp(if area.height < 16 { 3 } else { 6 }, (area.height / 2).max(3));
-        Layout::vertical([Constraint::Length(height), Constraint::Fill(1)]).areas(area)
+        let [editor, below] = Layout::vertical([Constraint::Length(height), Constraint::Fill(1)]).areas(area);
+        let is_bare = self.table.is_none() && self.named().is_empty();
+        if is_bare || is_narrow(area) || area.width < WIDE && !is_editing(state) {
+            return Panes { editor, result: below, catalogue: None };
+        }
+        let [result, catalogue] = Layout::horizontal([Constraint::Fill(1), Constraint::Length(CATALOGUE)]).areas(below);
+        Panes { editor, result, catalogue: Some(catalogue) }
+    }
+
+    /// Draws the columns of the relations that the query names; where it names none, the views.
+    fn draw_catalogue(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+        let named = self.named();
+        let title = if named.is_empty() { "views" } else { "columns" };
+        let block = pane(state.theme, title, false);
+        let inner = block.inner(area);
+        let (width, room) = (usize::from(inner.width), usize::from(inner.height));
+        let mut lines: Vec<Line<'_>> = vec![];
+        for relation in &named {
+            lines.push(Line::styled(shortened(&relation.name, width), state.theme.bold()));
+            lines.extend(columns(&relation.columns, width).into_iter().map(Line::raw));
+        }
+        if named.is_empty() {
+            let views = self.relations.iter().flatten().filter(|relation| relation.name.starts_with("v_"));
+            lines.extend(views.map(|view| Line::raw(shortened(&view.name, width))));
+        }
+        if lines.len() > room {
+            lines.truncate(room.saturating_sub(1));
+            lines.push(Line::styled("… Tab completes all", state.theme.dim()));
+        }
+        frame.render_widget(Paragraph::new(lines).block(block), area);
     }
 
     fn draw_editor(&self, frame: &mut Frame<'_>, area: Rect, screen: Rect, state: &State) {
         let focused = is_editing(state);
-        let title = match self.editor.mode() {
-            _ if !focused => "query: e edits, F5 runs",
-            None => "query: F5 runs, Tab completes, Esc leaves",
-            Some(Mode::Insert) => "query, insert: F5 runs, Tab completes, Esc to normal mode",
-            Some(Mode::Normal) => "query, normal: F5 runs, i a o type, Esc leaves",
+        let keys = match self.editor.mode() {
+            _ if !focused => ": e edits, F5 runs",
+            None => ": F5 runs, Tab completes, Esc leaves",
+            Some(Mode::Insert) => ", insert: F5 runs, Tab completes, Esc to normal mode",
+            Some(Mode::Normal) => ", normal: F5 runs, i a o type, Esc leaves",
         };
-        let block = pane(state.theme, title, focused);
+        let which = match self.queries().texts.len() {
+            0 | 1 => String::new(),
+            n => format!(" {} of {n}", self.queries.at + 1),
+        };
+        let block = pane(state.theme, format!("query{which}{keys}"), focused);
         let inner = block.inner(area);
         let editor = &self.editor;
         let (line, column) = editor.place();
@@ -95,7 +143,7 @@ impl SqlScreen {
         }
     }
 
-    fn draw_result(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+    fn draw_result(&self, frame: &mut Frame<'_>, area: Rect, state: &State, has_names: bool) {
         let title = match (&self.running, &self.outcome) {
             (Some(_), _) => "asking… C-c cancels".to_owned(),
             (None, Some(Ok(told))) => told.clone(),
@@ -119,7 +167,7 @@ impl SqlScreen {
                 lines.extend(rows(state, table, usize::from(inner.width), room))
             }
             Some(_) => lines.push(Line::raw("nothing was asked")),
-            None if lines.is_empty() => lines.extend(self.names(state, usize::from(inner.width))),
+            None if lines.is_empty() && has_names => lines.extend(self.names(state, usize::from(inner.width))),
             None => {}
         }
         frame.render_widget(Paragraph::new(lines).block(block), area);
@@ -144,6 +192,14 @@ impl SqlScreen {
         };
         views.map(line).collect()
     }
+}
+
+/// Names in columns, as many side by side as fit.
+fn columns(names: &[String], width: usize) -> Vec<String> {
+    let widest = names.iter().map(|name| text::width(name)).max().unwrap_or(0) + 1;
+    let across = (width.saturating_sub(1) / widest).max(1);
+    let line = |names: &[String]| names.iter().map(|name| left(name, widest)).collect::<String>();
+    names.chunks(across).map(|names| shortened(format!(" {}", line(names)).trim_end(), width)).collect()
 }
 
 /// Line of the query from a column on, with SQL words and the cursor highlighted.

@@ -4,6 +4,15 @@ use crate::widgets::editor::Editor;
 use crate::widgets::result_table::ResultTable;
 use store::{Relation, SavedQuery};
 
+/// Texts of the queries that are being written, and the index of the present one.
+#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct Queries {
+    /// Texts before and after the present query, and in its place what it was when it came into the editor.
+    pub texts: Vec<String>,
+    /// Index of the present query.
+    pub at: usize,
+}
+
 /// A query of the history that is shown in the editor.
 pub struct Recalled {
     /// Index in the history.
@@ -15,8 +24,10 @@ pub struct Recalled {
 /// The SQL screen.
 #[derive(Default)]
 pub struct SqlScreen {
-    /// Editor with the query.
+    /// Editor with the present query.
     pub editor: Editor,
+    /// Queries that are being written; the text of the present one is in the editor.
+    pub queries: Queries,
     /// Queries that were run, the oldest first.
     pub history: Vec<String>,
     /// Query of the history that is shown; `None` while the text is another.

@@ -14,20 +14,40 @@ use crate::screens::measurements::draw as measured;
 use crate::screens::movement::{Movement, stepped};
 use crate::screens::state::State;
 use crate::widgets::text;
+use crate::widgets::theme::{fit_glyph, glyph};
 use engine::wearables;
 use sim::fabric::USUAL as USUAL_FABRIC;
-use store::FitCell;
+use store::{Cell, FitCell, JobId, Status};
 
 /// True if a place of the grid matches the filter.
 #[must_use]
 pub fn is_match(state: &State, place: Place) -> bool {
     let filter = state.filter_of(Screen::Study);
     let (Some(data), Some(grid)) = (&state.data, state.grid()) else { return false };
-    let status = data.cell_at(place).and_then(|cell| cell.status).map_or("", text::status);
-    let fit = data.fit_at(place).map_or("", |fit| fit.class.as_str());
+    let cell = data.cell_at(place);
+    let status = cell.and_then(|cell| cell.status).map_or("", text::status);
+    let shown = cell.map_or(String::new(), cell_text);
+    let fit = data.fit_at(place);
+    let class = fit.map_or("", |fit| fit.class.as_str());
+    let ease = fit.map_or(String::new(), |fit| ease_text(&fit));
     let sim = grid.simulators.get(place.simulator).map_or("", |sim| text::sim(*sim));
     let (size, subject) = (&grid.sizes[place.size], &grid.subjects[place.subject]);
-    format!("{size} {subject} {sim} {status} {fit}").to_lowercase().contains(&filter)
+    format!("{size} {subject} {sim} {shown} {status} {ease} {class}").to_lowercase().contains(&filter)
+}
+
+/// Text of a cell: status glyph, with EI or share done.
+pub fn cell_text(cell: &Cell) -> String {
+    let Some(status) = cell.status else { return "·".into() };
+    match (status, cell.ei, cell.fraction) {
+        (Status::Running, _, Some(share)) => format!("{} {:.0}%", glyph(status), share * 100.0),
+        (_, Some(ei), _) => format!("{} {}", glyph(status), text::ei(ei)),
+        _ => glyph(status).to_owned(),
+    }
+}
+
+/// Text of a fit: its sign and the ease in mm.
+pub fn ease_text(fit: &FitCell) -> String {
+    format!("{} {}", fit_glyph(fit), text::ease_mm(fit.ease_m))
 }
 
 /// All places of the grid, row by row.
@@ -37,6 +57,13 @@ pub fn places(state: &State) -> Vec<Place> {
     let (sizes, simulators, subjects) = (grid.sizes.len(), grid.simulators.len(), grid.subjects.len());
     let rows = (0..sizes).flat_map(|size| (0..simulators).map(move |simulator| (size, simulator)));
     rows.flat_map(|(size, simulator)| (0..subjects).map(move |subject| Place { size, simulator, subject })).collect()
+}
+
+/// Jobs of the cells that match the filter, row by row.
+#[must_use]
+pub fn matching_jobs(state: &State) -> Vec<JobId> {
+    let places = places(state).into_iter().filter(|place| is_match(state, *place));
+    places.filter_map(|place| state.data.as_ref()?.cell_at(place)?.job).collect()
 }
 
 /// Moves the selection up or down in the grid.

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use ratatui::Frame;
-use ratatui::layout::{Constraint, Layout, Position, Rect};
+use ratatui::layout::{Constraint, Layout, Position, Rect, Size};
 use ratatui::style::{Modifier, Style};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Paragraph;
@@ -16,14 +16,13 @@ use crate::screens::picture_pane::actions::{drape_in, requests};
 use crate::screens::picture_pane::draw::draw_drape;
 use crate::screens::state::State;
 use crate::screens::study::StudyScreen;
-use crate::screens::study::actions::{self, is_match, places};
+use crate::screens::study::actions::{self, cell_text, ease_text, is_match, places};
 use crate::widgets::jump::{self, Goal, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane};
 use crate::widgets::picture::PictureRequest;
-use crate::widgets::text::{self, ease_mm, left, wrapped};
-use crate::widgets::theme::{fit_glyph, glyph};
-use store::{Cell, Grid, Status};
+use crate::widgets::text::{self, left, wrapped};
+use store::Grid;
 
 /// Least lines for a picture below the grid.
 const LEAST_PICTURE: u16 = 14;
@@ -70,7 +69,11 @@ impl Draw for StudyScreen {
         let target = |(line, subject, y): (usize, usize, u16)| {
             let x = inner.x + (label_width(grid) + (subject - subjects.start) * cell_width(grid)) as u16;
             let place = Place { size: line / of_size, simulator: line % of_size, subject };
-            Target { at: Position::new(x, y), goal: Goal::Item(cell(&place)) }
+            Target {
+                at: Position::new(x, y),
+                size: Size::new(cell_width(grid) as u16, 1),
+                goal: Goal::Item(cell(&place)),
+            }
         };
         let other = if state.in_second_pane() { jump::pane(panes.grid, 0) } else { jump::pane(panes.detail, 1) };
         cells.map(target).chain([other]).collect()
@@ -208,21 +211,11 @@ fn row(state: &State, grid: &Grid, subjects: Range<usize>, size: usize, simulato
     Line::from(spans)
 }
 
-/// Text of a cell: status glyph, with EI or share done.
-fn cell_text(cell: &Cell) -> String {
-    let Some(status) = cell.status else { return "·".into() };
-    match (status, cell.ei, cell.fraction) {
-        (Status::Running, _, Some(share)) => format!("{} {:.0}%", glyph(status), share * 100.0),
-        (_, Some(ei), _) => format!("{} {ei:.4}", glyph(status)),
-        _ => glyph(status).to_owned(),
-    }
-}
-
 fn fit_row(state: &State, grid: &Grid, subjects: Range<usize>, size: usize) -> Line<'static> {
     let mut line = left("ease mm", label_width(grid));
     for subject in subjects {
         let fit = grid.fits[size][subject];
-        let text = fit.map_or("—".to_owned(), |fit| format!("{} {}", fit_glyph(&fit), ease_mm(fit.ease_m)));
+        let text = fit.map_or("—".to_owned(), |fit| ease_text(&fit));
         line += &left(&text, cell_width(grid));
     }
     Line::styled(line, state.theme.dim())
@@ -274,8 +267,7 @@ fn draw_list(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
     let first = first_shown(selected, places.len(), usize::from(area.height));
     let line = |place: &Place| {
         let cell = &grid.cells[place.size][place.subject][place.simulator];
-        let fit = grid.fits[place.size][place.subject]
-            .map_or(String::new(), |fit| format!("{} {}", fit_glyph(&fit), ease_mm(fit.ease_m)));
+        let fit = grid.fits[place.size][place.subject].map_or(String::new(), |fit| ease_text(&fit));
         let style = cell.status.map_or(state.theme.dim(), |status| state.theme.status(status));
         let style = if *place == state.place { style.patch(state.theme.selected()) } else { style };
         let simulator = text::sim(grid.simulators[place.simulator]);

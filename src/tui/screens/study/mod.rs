@@ -4,7 +4,9 @@ pub mod actions;
 mod draw;
 
 use crate::keys::action::Action;
+use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
+use crate::screens::compare::actions::{mark_all, mark_range};
 use crate::screens::jobs::actions::job_line;
 use crate::screens::measurements;
 use crate::screens::movement::Movement;
@@ -55,6 +57,10 @@ impl Page for StudyScreen {
             Action::PreviousGarment => actions::step_garment(state, -1),
             Action::NextStudy => actions::next_study(state),
             Action::NewStudy => actions::new_study(state),
+            Action::MarkRange if state.nav.screen == Screen::Study => {
+                mark_range(state, &actions::matching_jobs(state));
+            }
+            Action::MarkAll if state.nav.screen == Screen::Study => mark_all(state, &actions::matching_jobs(state)),
             _ => return None,
         }
         Some(vec![])

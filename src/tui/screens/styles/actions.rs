@@ -17,8 +17,20 @@ impl StylesScreen {
     pub fn sizes<'a>(&self, state: &'a State) -> Vec<&'a SizeRow> {
         let Some(data) = &state.data else { return vec![] };
         let filter = state.filter_of(Screen::Styles);
-        let words = |row: &SizeRow| format!("{} {} {}", row.style, row.size, row.pattern_file).to_lowercase();
+        let words = |row: &SizeRow| {
+            let marks = self.marks_of(state, row).concat();
+            format!("{marks} {} {} {} {}", row.style, row.size, revisions(row), row.pattern_file).to_lowercase()
+        };
         data.sizes.iter().filter(|row| words(row).contains(&filter)).collect()
+    }
+
+    /// Marks of a size: of the study, not saved, and the number of its proposed seams.
+    #[must_use]
+    pub fn marks_of(&self, state: &State, row: &SizeRow) -> [String; 3] {
+        let is_used = state.study().is_some_and(|study| study.garments.contains(&row.style));
+        let mark = |is_set: bool, mark: &str| if is_set { mark } else { " " }.to_owned();
+        let unsure = if row.unconfirmed > 0 { format!("?{} ", row.unconfirmed) } else { String::new() };
+        [mark(is_used, "•"), mark(self.edits.contains_key(&row.style), "*"), unsure]
     }
 
     /// Selected size. Where it is not shown: another size of its style, or the first of the list.
@@ -151,7 +163,7 @@ impl StylesScreen {
             true => (Part::Style, row.style.clone()),
             false => (Part::Size, format!("{}/{}", row.style, row.size)),
         };
-        catalogue::remove(state, part, Some(name));
+        catalogue::remove(state, part, vec![name]);
     }
 
     /// Moves the selection in the list of sizes.
@@ -168,6 +180,12 @@ impl StylesScreen {
         let lines = self.laid_out(state).map_or(0, |layout| layout.lines().len());
         self.select_line(state, movement.from(self.line, lines));
     }
+}
+
+/// Revisions of a size's style and of the size itself.
+#[must_use]
+pub fn revisions(row: &SizeRow) -> String {
+    format!("{}/{}", row.style_revision, row.revision)
 }
 
 /// Opens the form for the files of a style.

@@ -43,6 +43,26 @@ impl StylesScreen {
         }
     }
 
+    /// Edges that the present question is about: its own; without any, those of the edges and pieces that its text names.
+    #[must_use]
+    pub fn pointed(&self, state: &State) -> Vec<EdgeAt> {
+        let (Some(asked), Some(layout)) = (self.asked(state), self.laid_out(state)) else { return vec![] };
+        if !asked.edges.is_empty() {
+            return asked.edges;
+        }
+        let is_part = |letter: char| letter.is_alphanumeric() || "_.-".contains(letter);
+        let words = asked.text.split(|letter: char| !is_part(letter)).map(|word| word.trim_end_matches('.'));
+        let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+        let desk = &layout.out.desk;
+        let edges = layout.edges();
+        let named: Vec<EdgeAt> =
+            edges.iter().copied().filter(|edge| words.contains(&desk.edge_name(*edge).as_str())).collect();
+        if !named.is_empty() {
+            return named;
+        }
+        edges.into_iter().filter(|(piece, _)| words.contains(&desk.pieces[*piece].id.as_str())).collect()
+    }
+
     /// Starts asking: with the question of the selected line or, without one, with the first of the list. Where the
     /// list is empty, asks about the selected edge if that is in no seam; else says that nothing is left.
     pub fn begin_asking(&mut self, state: &mut State) {
@@ -93,7 +113,7 @@ impl StylesScreen {
 
     fn ask_about(&mut self, state: &State, asking: Asking) {
         self.asking = Some(asking);
-        let edge = self.asked(state).and_then(|asked| asked.edges.first().copied());
+        let edge = self.pointed(state).first().copied();
         if let (None, Some(edge)) = (asking.own, edge) {
             self.edge = edge;
             let line = self.laid_out(state).and_then(|layout| layout.seam_at(edge));

@@ -11,6 +11,7 @@ use crate::overlays::explanation::Selected;
 use crate::screens::page::Draw;
 use crate::screens::picture_pane::actions::requests;
 use crate::screens::state::State;
+use crate::screens::styles::actions::revisions;
 use crate::screens::styles::pieces::{self, letter};
 use crate::screens::styles::state::{EdgeAt, StylesScreen, TableLine};
 use crate::widgets::jump::{self, Goal, Target};
@@ -177,24 +178,23 @@ impl StylesScreen {
         let (width, height) = (usize::from(width), usize::from(height).saturating_sub(1));
         let key = self.size_row(state).map(|row| row.key);
         let at = sizes.iter().position(|row| Some(row.key) == key).unwrap_or(0);
-        let head = format!("  {} {} {} {}", left("style", 14), left("size", 6), left("rev", 4), "pattern");
+        let widest = |of: fn(&SizeRow) -> &String| sizes.iter().map(|row| text::width(of(row))).max().unwrap_or(0);
+        let style = widest(|row| &row.style).clamp(14, (width / 3).max(14));
+        let names = [style, widest(|row| &row.size).clamp(6, (width / 6).max(6))];
+        let head = format!("  {} {} {} {}", left("style", names[0]), left("size", names[1]), left("rev", 4), "pattern");
         let mut lines = vec![Line::styled(shortened(&head, width), state.theme.dim())];
         let selection = state.theme.selection(!state.in_second_pane());
-        lines.extend(listed(&sizes, at, height, selection, |row| Line::raw(self.list_line(state, row, width))));
+        lines.extend(listed(&sizes, at, height, selection, |row| Line::raw(self.list_line(state, row, names, width))));
         if sizes.is_empty() {
             lines.push(no_rows(state.filter(), "no size matches the filter", "no styles yet: i imports one"));
         }
         lines
     }
 
-    fn list_line(&self, state: &State, row: &SizeRow, width: usize) -> String {
-        let study = state.study();
-        let used = if study.is_some_and(|study| study.garments.contains(&row.style)) { "•" } else { " " };
-        let edited = if self.edits.contains_key(&row.style) { "*" } else { " " };
-        let unsure = if row.unconfirmed > 0 { format!("?{} ", row.unconfirmed) } else { String::new() };
-        let revisions = format!("{}/{}", row.style_revision, row.revision);
-        let (style, size) = (left(&row.style, 14), left(&row.size, 6));
-        let start = format!("{used}{edited}{style} {size} {} {unsure}", left(&revisions, 4));
+    fn list_line(&self, state: &State, row: &SizeRow, names: [usize; 2], width: usize) -> String {
+        let [used, edited, unsure] = self.marks_of(state, row);
+        let (style, size) = (left(&row.style, names[0]), left(&row.size, names[1]));
+        let start = format!("{used}{edited}{style} {size} {} {unsure}", left(&revisions(row), 4));
         let file = shortened(&row.pattern_file, width.saturating_sub(text::width(&start)));
         shortened(&format!("{start}{file}"), width)
     }

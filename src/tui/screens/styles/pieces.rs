@@ -2,7 +2,7 @@
 //! text can be shown by every terminal.
 
 use ratatui::Frame;
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::{Position, Rect, Size};
 use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker;
 use ratatui::text::Line;
@@ -52,7 +52,7 @@ pub fn targets(layout: &SizeLayout, area: Rect) -> Vec<Target> {
     let Some(view) = View::of(jump::inside(area), layout) else { return vec![] };
     let place = |(k, (piece, edge)): (usize, EdgeAt)| {
         let [middle, _] = layout.out.desk.pieces[piece].edges[edge].middle();
-        Some(Target { at: view.cell(middle)?, goal: Goal::Item(k) })
+        Some(Target { at: view.cell(middle)?, size: Size::new(2, 1), goal: Goal::Item(k) })
     };
     layout.edges().into_iter().enumerate().filter_map(place).collect()
 }
@@ -136,8 +136,8 @@ impl Drawing<'_> {
         frame.render_widget(canvas, *area);
     }
 
-    /// Draws the selected edge and its partner with glyphs that need no colour, and possible partners by the digits of
-    /// their answers.
+    /// Draws the selected edge, those that a question is about, and the partner with glyphs that need no colour; possible
+    /// partners by the digits of their answers.
     fn selection(&self, frame: &mut Frame<'_>) {
         let chosen = self.screen.edge;
         let asked = self.screen.asked(self.state);
@@ -145,6 +145,7 @@ impl Drawing<'_> {
             let choices = &asked.as_ref()?.choices;
             choices.iter().position(|choice| choice.edges.contains(&at)).filter(|place| *place < DIGITS.len())
         };
+        let pointed = self.screen.pointed(self.state);
         let seam = self.layout.seam_at(chosen).map(|k| &self.layout.out.desk.seams[k]);
         let others = seam.map_or(&[][..], |seam| if seam.a.contains(&chosen) { &seam.b } else { &seam.a });
         for (at, _, edge) in self.edges() {
@@ -152,6 +153,7 @@ impl Drawing<'_> {
                 at if at == chosen => "●",
                 at if self.screen.marks.contains(&at) => "◆",
                 at if others.contains(&at) => "○",
+                at if pointed.contains(&at) => "●",
                 at => match offered(at) {
                     Some(place) => DIGITS[place],
                     None => continue,
@@ -178,10 +180,11 @@ impl Drawing<'_> {
     /// then long edges before short ones.
     fn labels(&self, frame: &mut Frame<'_>) {
         let screen = self.screen;
+        let pointed = screen.pointed(self.state);
         let mut edges: Vec<_> = self.edges().collect();
         let rank = |at: EdgeAt| match at {
             at if at == screen.edge => 0,
-            at if screen.marks.contains(&at) => 1,
+            at if screen.marks.contains(&at) || pointed.contains(&at) => 1,
             _ => 2,
         };
         edges.sort_by(|(a, _, one), (b, _, two)| {

@@ -31,6 +31,12 @@ impl StylesScreen {
         state.setup.abilities.pictures && !is_narrow(state.body()) && (is_wide || self.preview.is_chosen)
     }
 
+    /// Fabric in which the shown study wears the selected style; `None` where it does not.
+    #[must_use]
+    pub fn cloth<'a>(&self, state: &'a State) -> Option<&'a String> {
+        state.data.as_ref()?.cloths.get(&self.size_row(state)?.style)
+    }
+
     /// Requests a preview of the selected size with its edits, if it is shown and was not requested before.
     pub fn ask_for_preview(&mut self, state: &State) -> Option<Effect> {
         if !self.shows_preview(state) || !self.is_current() {

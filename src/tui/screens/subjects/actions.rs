@@ -5,7 +5,7 @@ use crate::overlays::entry_form::Form;
 use crate::screens::catalogue;
 use crate::screens::movement::Movement;
 use crate::screens::state::State;
-use crate::screens::subjects::state::{SubjectOrder, SubjectsScreen};
+use crate::screens::subjects::state::{SHOWN, SubjectOrder, SubjectsScreen};
 use crate::widgets::text;
 use spec::bodies::Measurements;
 use spec::{Field, MEASUREMENTS};
@@ -17,7 +17,7 @@ impl SubjectsScreen {
     pub fn shown<'a>(&self, state: &'a State) -> Vec<&'a SubjectRow> {
         let Some(data) = &state.data else { return vec![] };
         let filter = state.filter_of(Screen::Subjects);
-        let matches = |row: &&SubjectRow| format!("{} {}", row.name, text::sex(row)).to_lowercase().contains(&filter);
+        let matches = |row: &&SubjectRow| words(row).to_lowercase().contains(&filter);
         let mut subjects: Vec<&SubjectRow> = data.subjects.iter().filter(matches).collect();
         match self.order.by {
             SubjectOrder::Name => {}
@@ -61,11 +61,13 @@ impl SubjectsScreen {
         }
     }
 
-    /// Removes the selected subject, after a question.
+    /// Removes the marked subjects or the selected one, after a question.
     pub fn remove(&self, state: &mut State) {
         if catalogue::may_change(state, Part::Subject) {
-            let name = self.selected(state).map(|row| row.name.clone());
-            catalogue::remove(state, Part::Subject, name);
+            let selected = self.selected(state).map(|row| row.name.clone());
+            let marked: Vec<String> = self.marks.iter().cloned().collect();
+            let names = if marked.is_empty() { selected.into_iter().collect() } else { marked };
+            catalogue::remove(state, Part::Subject, names);
         }
     }
 
@@ -78,6 +80,22 @@ impl SubjectsScreen {
         };
         let values: Vec<String> = MEASUREMENTS.iter().map(value).collect();
         Some(format!("{}\t{}\t{}", subject.name, text::sex(subject), values.join("\t")))
+    }
+}
+
+/// Text of a subject to which the filter applies: what its line shows.
+fn words(row: &SubjectRow) -> String {
+    let shown = MEASUREMENTS.iter().take(SHOWN).map(|field| number(field.get(&row.measurements), field.key));
+    format!("{} {} {}", row.name, text::sex(row), shown.collect::<Vec<_>>().join(" "))
+}
+
+/// Text of a measurement: lengths in whole mm, weights with one decimal.
+#[must_use]
+pub fn number(value: Option<f64>, key: &str) -> String {
+    match value {
+        None => "—".to_owned(),
+        Some(value) if key.ends_with("_kg") => format!("{value:.1}"),
+        Some(value) => format!("{value:.0}"),
     }
 }
 

@@ -10,6 +10,7 @@ use crate::screens::page::Draw;
 use crate::screens::picture_pane::actions::requests;
 use crate::screens::picture_pane::draw::{draw_shot, parts};
 use crate::screens::state::State;
+use crate::screens::subjects::actions::number;
 use crate::screens::subjects::state::{SHOWN, SubjectOrder, SubjectsScreen};
 use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
@@ -118,7 +119,7 @@ impl SubjectsScreen {
         let mut lines = vec![self.header(state, name, shown)];
         let room = usize::from(height).saturating_sub(1);
         lines.extend(listed(&subjects, at, room, state.theme.selection(focused), |row| {
-            Line::raw(shortened(&list_line(row, name, shown), width))
+            Line::raw(shortened(&list_line(row, self.marks.has(&row.name), name, shown), width))
         }));
         if subjects.is_empty() {
             lines.push(no_rows(state.filter(), "no subject matches the filter", "no subjects yet: a adds one"));
@@ -185,21 +186,13 @@ pub fn columns(width: usize) -> (usize, usize) {
     (width.saturating_sub(SEX + numbers(shown)).clamp(LEAST_NAME, 24), shown)
 }
 
-fn list_line(row: &SubjectRow, name: usize, shown: usize) -> String {
-    let mut text = format!("{} {} ", left(&row.name, name), &text::sex(row)[..1]);
+fn list_line(row: &SubjectRow, is_marked: bool, name: usize, shown: usize) -> String {
+    let mark = if is_marked { "•" } else { " " };
+    let mut text = format!("{}{mark}{} ", left(&row.name, name), &text::sex(row)[..1]);
     for (field, (_, columns)) in MEASUREMENTS.iter().zip(HEADINGS).take(shown) {
         text += &right(&number(field.get(&row.measurements), field.key), columns);
     }
     text
-}
-
-/// Text of a measurement: lengths in whole mm, weights with one decimal.
-fn number(value: Option<f64>, key: &str) -> String {
-    match value {
-        None => "—".to_owned(),
-        Some(value) if key.ends_with("_kg") => format!("{value:.1}"),
-        Some(value) => format!("{value:.0}"),
-    }
 }
 
 fn draw_picture(frame: &mut Frame<'_>, area: Rect, state: &State, subject: &SubjectRow) {

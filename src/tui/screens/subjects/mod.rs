@@ -5,6 +5,7 @@ pub mod draw;
 pub mod state;
 
 use crate::keys::action::Action;
+use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::screens::catalogue;
 use crate::screens::movement::Movement;
@@ -36,6 +37,8 @@ impl Page for SubjectsScreen {
     }
 
     fn receive(&mut self, state: &State) {
+        let all = state.data.as_ref().map_or(&[][..], |data| &data.subjects);
+        self.marks.keep(|name| all.iter().any(|row| row.name == *name));
         self.chosen = self.selected(state).map(|row| row.name.clone());
     }
 
@@ -44,6 +47,13 @@ impl Page for SubjectsScreen {
     }
 
     fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {
+        if state.nav.screen == Screen::Subjects {
+            let shown: Vec<String> = self.shown(state).iter().map(|row| row.name.clone()).collect();
+            let marked = catalogue::mark(state, &mut self.marks, action, &shown, self.chosen.as_ref());
+            if marked.is_some() {
+                return marked;
+            }
+        }
         match action {
             Action::Add(Part::Subject) => actions::add(state),
             Action::Edit(Part::Subject) => self.edit(state),

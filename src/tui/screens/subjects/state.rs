@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::screens::marks::Marks;
 use crate::screens::order::Order;
 use spec::bodies::Girths;
 use store::SubjectId;
@@ -39,6 +40,8 @@ impl SubjectOrder {
 pub struct SubjectsScreen {
     /// Name of the chosen subject.
     pub chosen: Option<String>,
+    /// Names of the marked subjects.
+    pub marks: Marks<String>,
     /// Order of the list.
     pub order: Order<SubjectOrder>,
     /// Tape measurements of bodies, or the reason why a body could not be built.
