@@ -100,12 +100,9 @@ pub fn fewest(goals: &[Goal], limits: &[[f64; 2]], costs: &[f64]) -> Change {
     let moves = |place: &usize| scale[*place] > 0.0 && goals.iter().any(|goal| goal.sensitivity[*place] != 0.0);
     let mut order: Vec<usize> = (0..scale.len()).filter(moves).collect();
     order.sort_by(|a, b| costs[*a].total_cmp(&costs[*b]));
-    let mut search = Search { goals: &goals, limits, costs, scale: &scale, order: &order, best: None };
+    let mut search = Search { asked, goals: &goals, limits, costs, scale: &scale, order: &order, best: None };
     search.extend(&mut Vec::new(), 0, 0.0);
-    let Some((_, amounts)) = search.best else { return all };
-    // What was spared to choose the set is not spared within it.
-    let chosen: Vec<usize> = (0..amounts.len()).filter(|place| amounts[*place] != 0.0).collect();
-    least_of(&chosen, asked, limits, &scale)
+    search.best.map_or(all, |(_, change)| change)
 }
 
 /// Solves for the amounts of a set of handles. All others stay.
@@ -139,14 +136,16 @@ fn off(goal: &Goal, value: f64) -> f64 {
 
 /// Search over the sets of handles.
 struct Search<'a> {
+    asked: &'a [Goal],
+    /// Goals as a set has to meet them: what is out of reach may be spared.
     goals: &'a [Goal],
     limits: &'a [[f64; 2]],
     costs: &'a [f64],
     scale: &'a [f64],
     /// Handles that may join a set, the cheapest first.
     order: &'a [usize],
-    /// Cost and amounts of the best set so far.
-    best: Option<(f64, Vec<f64>)>,
+    /// Cost and change of the best set so far.
+    best: Option<(f64, Change)>,
 }
 
 impl Search<'_> {
@@ -188,9 +187,14 @@ impl Search<'_> {
         let change = least_of(set, self.goals, self.limits, self.scale);
         let is_met =
             self.goals.iter().zip(&change.values).all(|(goal, value)| goal.gives.is_some() || off(goal, *value) <= MET);
-        let cost = cost(self.goals, self.limits, self.costs, &change.amounts);
-        if is_met && self.best.as_ref().is_none_or(|(best, _)| cost < *best) {
-            self.best = Some((cost, change.amounts));
+        if !is_met {
+            return;
+        }
+        // What may be spared to choose the set is not spared within it.
+        let change = least_of(set, self.asked, self.limits, self.scale);
+        let cost = cost(self.asked, self.limits, self.costs, &change.amounts);
+        if self.best.as_ref().is_none_or(|(best, _)| cost < *best) {
+            self.best = Some((cost, change));
         }
     }
 }

@@ -245,7 +245,7 @@ mod tests {
             told(&[("sex", "woman"), ("stature_mm", "1,65"), ("waist_girth_mm", "70"), ("wiast_girth_mm", "700")]),
             [
                 "sex `woman`; accepted: male, female",
-                "`stature_mm` is `1,65`, which is no number; accepted: 1300 to 2200",
+                "`stature_mm` is 1.65; accepted: 1300 to 2200",
                 "`waist_girth_mm` is 70; accepted: 450 to 1700",
                 "unknown value `wiast_girth_mm`; did you mean `waist_girth_mm`?",
             ]

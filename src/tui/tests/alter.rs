@@ -273,7 +273,7 @@ fn the_quickstart_is_altered_as_its_file_has_it() {
     let asked = |garment: &str| AlterRequest {
         study: quickstart.join("study.toml"),
         garment: garment.into(),
-        ..request("v", "S", false)
+        ..request("v", "M", false)
     };
     let found = alteration(&store, &asked("tshirt")).expect("it has this size and subject");
     assert!(!found.moves.is_empty() && found.is_met() && found.drape.is_none());

@@ -26,7 +26,8 @@ fn an_even_grade_has_even_rules_few_of_them_and_seams_that_agree() {
         assert!(graded.table.rules.len() <= most_rules, "{model:?}: {} rules", graded.table.rules.len());
         for rule in graded.table.rules.values() {
             for pair in rule.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<_>>().windows(2) {
-                assert!((pair[1] - pair[0]).norm() < 0.15e-3, "{model:?}: {rule:?}");
+                // Half of what a cutter sees.
+                assert!((pair[1] - pair[0]).norm() < 0.25e-3, "{model:?}: {rule:?}");
             }
         }
         let file = crate::dxf::PatternFile {
