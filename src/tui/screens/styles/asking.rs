@@ -173,8 +173,7 @@ impl StylesScreen {
 #[must_use]
 pub fn named(text: &str, layout: &SizeLayout) -> Vec<EdgeAt> {
     let is_part = |letter: char| letter.is_alphanumeric() || "_.-".contains(letter);
-    let words: Vec<&str> =
-        text.split(|letter: char| !is_part(letter)).map(|word| word.trim_end_matches('.')).collect();
+    let words: Vec<&str> = text.split(|letter: char| !is_part(letter)).map(|word| word.trim_end_matches('.')).collect();
     let desk = &layout.out.desk;
     let edges = layout.edges();
     let by_edge: Vec<EdgeAt> =
