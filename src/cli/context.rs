@@ -48,10 +48,11 @@ impl Context {
         })
     }
 
-    /// Refuses a database that was named and is not there, for commands that have nothing to make one for: a misspelt
-    /// path would leave folders behind.
-    pub fn must_be_there(&self) -> Result<(), CliError> {
-        if self.is_db_named && !self.db.exists() {
+    /// Refuses a database that was named in a folder that is not there, for commands that only tell: a misspelt path
+    /// would leave folders behind.
+    pub fn must_have_folder(&self) -> Result<(), CliError> {
+        let folder = self.db.parent().filter(|folder| !folder.as_os_str().is_empty());
+        if self.is_db_named && folder.is_some_and(|folder| !folder.exists()) {
             catalogue::open(&self.db, true)?;
         }
         Ok(())

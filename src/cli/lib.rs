@@ -171,7 +171,7 @@ fn execute(
 ) -> Outcome {
     let context = Context::new(arguments.global)?;
     if arguments.command.as_ref().is_some_and(Command::only_tells) {
-        context.must_be_there()?;
+        context.must_have_folder()?;
     }
     match arguments.command {
         None => {

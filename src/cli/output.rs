@@ -9,7 +9,7 @@ use serde_json::{Map, Value as Json};
 use super::CliError;
 use super::args::Format;
 use geom::units::significant;
-use store::{Table, Value, files};
+use store::{Table, Value, distinct, files};
 
 /// Prints an error on standard error.
 pub fn tell(message: &impl std::fmt::Display) {
@@ -168,7 +168,8 @@ fn short(value: &Value) -> String {
 
 /// Rows as JSON objects, with keys in the order of the columns.
 pub fn rows(table: &Table) -> Vec<Map<String, Json>> {
-    table.rows.iter().map(|row| table.columns.iter().cloned().zip(row.iter().map(Json::from)).collect()).collect()
+    let names = distinct(&table.columns);
+    table.rows.iter().map(|row| names.iter().cloned().zip(row.iter().map(Json::from)).collect()).collect()
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! Tables as Apache Parquet [Parquet format 2.10]: one row group of plain, uncompressed values, so that no package is
 //! needed. Every column may have nulls. A column of whole numbers is INT64, one of other numbers DOUBLE, any other
-//! UTF-8 text.
+//! UTF-8 text, and so is one without values.
 
-use store::{Table, Value};
+use store::{Table, Value, distinct};
 
 /// First and last bytes of every file.
 const MAGIC: &[u8; 4] = b"PAR1";
@@ -22,7 +22,7 @@ pub fn bytes(table: &Table) -> Vec<u8> {
     let mut file = MAGIC.to_vec();
     let mut schema = vec![root(table.columns.len())];
     let mut chunks = Vec::new();
-    for (index, name) in table.columns.iter().enumerate() {
+    for (index, name) in distinct(&table.columns).iter().enumerate() {
         let values: Vec<&Value> = table.rows.iter().map(|row| row.get(index).unwrap_or(&Value::Null)).collect();
         let kind = kind(&values);
         schema.push(element(name, kind));
@@ -50,17 +50,18 @@ pub fn bytes(table: &Table) -> Vec<u8> {
     file
 }
 
-/// Narrowest type for all values of a column.
+/// Narrowest type for all values of a column; text for a column without values, of which nobody knows the type.
 fn kind(values: &[&Value]) -> Kind {
-    let mut kind = Kind::Int64;
+    let mut kind = None;
     for value in values {
         match value {
-            Value::Null | Value::Integer(_) => {}
-            Value::Real(_) => kind = Kind::Double,
+            Value::Null => {}
+            Value::Integer(_) => kind = kind.or(Some(Kind::Int64)),
+            Value::Real(_) => kind = Some(Kind::Double),
             Value::Text(_) | Value::Blob(_) => return Kind::ByteArray,
         }
     }
-    kind
+    kind.unwrap_or(Kind::ByteArray)
 }
 
 /// Writes a page: header, definition levels, and the values that are not null.
@@ -239,6 +240,18 @@ mod tests {
         check(-65, &[0x81, 1]);
         check(150, &[0xac, 2]);
         check(i64::MIN, &[0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 1]);
+    }
+
+    #[test]
+    fn a_column_has_the_narrowest_type_of_its_values() {
+        let check = |values: &[Value], expect: Kind| {
+            assert!(kind(&values.iter().collect::<Vec<_>>()) == expect, "{values:?}");
+        };
+        check(&[Value::Null, Value::Integer(5)], Kind::Int64);
+        check(&[Value::Integer(5), Value::Real(0.5), Value::Integer(1)], Kind::Double);
+        check(&[Value::Real(0.5), Value::Text("a".into())], Kind::ByteArray);
+        check(&[Value::Null, Value::Null], Kind::ByteArray);
+        check(&[], Kind::ByteArray);
     }
 
     #[test]

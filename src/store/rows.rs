@@ -395,6 +395,18 @@ impl Table {
     }
 }
 
+/// Headings of which none is twice, for formats that find values by them: `ei`, `ei_2`.
+#[must_use]
+pub fn distinct(columns: &[String]) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for column in columns {
+        let free = |name: &String| !names.contains(name) && (name == column || !columns.contains(name));
+        let named = (2..).map(|n| format!("{column}_{n}"));
+        names.extend(std::iter::once(column.clone()).chain(named).find(free));
+    }
+    names
+}
+
 /// The headings of a table as a line of CSV.
 pub(crate) fn csv_head(columns: &[String]) -> String {
     table::line(columns.iter().map(|name| table::guarded(name)))
@@ -474,5 +486,21 @@ impl StageKind {
             Self::Mesh => "mesh",
             Self::Drape => "drape",
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headings_are_told_apart() {
+        let check = |columns: &[&str], expect: &[&str]| {
+            let columns: Vec<String> = columns.iter().map(|name| (*name).to_owned()).collect();
+            assert_eq!(distinct(&columns), expect);
+        };
+        check(&["a", "b"], &["a", "b"]);
+        check(&["ei", "n", "ei", "ei"], &["ei", "n", "ei_2", "ei_3"]);
+        check(&["ei", "ei_2", "ei"], &["ei", "ei_2", "ei_3"]);
     }
 }

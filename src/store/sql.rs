@@ -12,7 +12,7 @@ use rusqlite::types::ValueRef;
 use crate::database::Store;
 use crate::error::{InOrigin, Origin, Result, StudyError, nearest};
 use crate::files::kind_of;
-use crate::rows::{Table, Value, csv_head, csv_row};
+use crate::rows::{Table, Value, csv_head, csv_row, distinct};
 
 /// Handle by which another thread stops a query.
 pub struct Interrupter(rusqlite::InterruptHandle);
@@ -101,12 +101,15 @@ pub fn export_query(store: &Store, text: &str, path: &Path, stop: &AtomicBool) -
     let is_json = kind_of(path, &[("csv", false), ("json", true)]).origin(Origin::Sql)?;
     let file = File::create_new(path).map_err(StudyError::io(path))?;
     let mut out = BufWriter::new(file);
-    let mut rows = 0;
+    let (mut rows, mut names) = (0, Vec::new());
     let written = each_row(store, text, stop, |columns, row| {
         let line = match (&row, is_json) {
-            (None, true) => String::new(),
+            (None, true) => {
+                names = distinct(columns);
+                String::new()
+            }
             (None, false) => csv_head(columns),
-            (Some(row), true) => format!("{}{}", if rows == 0 { "[\n" } else { ",\n" }, json_line(columns, row)),
+            (Some(row), true) => format!("{}{}", if rows == 0 { "[\n" } else { ",\n" }, json_line(&names, row)),
             (Some(row), false) => csv_row(row),
         };
         rows += usize::from(row.is_some());
@@ -290,6 +293,8 @@ mod tests {
         assert_eq!(rows, serde_json::json!([{"x": 1, "t": "a,\"b"}, {"x": 2, "t": "a,\"b"}]));
         write("none.json", "SELECT 1 AS a WHERE 0").expect("written");
         assert_eq!(text("none.json"), "[]\n");
+        write("twice.json", "SELECT 1 AS a, 2 AS a").expect("written");
+        assert_eq!(text("twice.json"), "[\n{\"a\":1,\"a_2\":2}\n]\n");
         write("c.CSV", "SELECT '=1+2' AS '-x', -5 AS y, '-5' AS z, '@a' AS w").expect("written");
         assert_eq!(text("c.CSV"), "'-x,y,z,w\n'=1+2,-5,-5,'@a\n");
         assert!(write("a.csv", "SELECT 1").is_err(), "it is there already");

@@ -364,7 +364,7 @@ fn sql_reads_and_never_writes() {
         let mut command = place.command("sql");
         let output = command.arg(query).output().expect("it starts");
         assert_eq!(output.status.code(), Some(2), "{query}");
-        assert!(String::from_utf8_lossy(&output.stderr).starts_with("toile: database:"), "{query}");
+        assert!(String::from_utf8_lossy(&output.stderr).starts_with("toile: sql:"), "{query}");
     }
     assert_eq!(std::fs::read(place.path("toile.sqlite")).expect("there"), before);
     assert!(!place.path("other.sqlite").exists() && !place.path("copy.sqlite").exists());

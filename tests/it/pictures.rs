@@ -200,7 +200,7 @@ const SCENES: [Scene; 19] = [
     ("c", 2.4, Some("compare")),
     ("d", 1.4, None),
     ("7", 0.8, None),
-    ("SELECT garment, size, subject, simulator, ei FROM v_m", 0.8, None),
+    ("eSELECT garment, size, subject, simulator, ei FROM v_m", 0.8, None),
     ("<Tab> ORDER BY ei DESC<F5>", 1.0, None),
     ("<Tab>", 2.4, Some("sql")),
     ("9", 1.4, None),

@@ -209,7 +209,7 @@ fn a_copy_says_where_it_is() {
     let copied = fs::read_to_string(place.path("buffer")).expect("loaded");
     check(&[("TERM", "linux".to_owned())], "since no clipboard is in reach");
     let file = fs::read_to_string(place.path("state/toile/copied.txt")).expect("written");
-    assert!(copied == file && file.starts_with("chiffon\t"), "{copied} {file}");
+    assert!(copied == file && file.starts_with("canvas\t"), "{copied} {file}");
 }
 
 #[test]

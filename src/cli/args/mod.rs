@@ -168,7 +168,7 @@ pub enum Command {
 }
 
 impl Command {
-    /// True if the command only tells what a database has, so that it makes none.
+    /// True if the command only tells what a database has, so that it makes no folder for one.
     pub fn only_tells(&self) -> bool {
         let is_telling =
             matches!(self, Self::Queue(_) | Self::Sql(_) | Self::Info | Self::Recommend(_) | Self::Section(_));

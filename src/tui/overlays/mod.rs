@@ -34,6 +34,7 @@ use crate::overlays::style_form::StyleForm;
 use crate::overlays::tour::Tour;
 use crate::widgets::layout::middle;
 use crate::widgets::lists::pane;
+use crate::widgets::text::wrapped;
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::{edit, is_ctrl_c};
 
@@ -158,12 +159,13 @@ impl Overlay {
 
 fn draw_question(frame: &mut Frame<'_>, area: Rect, text: &str, answers: &[Answer], theme: Theme) {
     let width = area.width.min(60);
-    let rows = text.chars().count() as u16 / width.saturating_sub(4).max(1) + 5;
+    let inside = usize::from(width.saturating_sub(2));
     let keys = answers.iter().flat_map(|answer| {
         [Span::styled(answer.key.to_string(), theme.bold()), Span::raw(format!(" {}    ", answer.label))]
     });
     let keys = Line::from_iter(keys.chain([Span::raw("any other key: no")]));
-    let rows = rows + keys.width() as u16 / width.saturating_sub(2).max(1);
+    let keys_rows = keys.width().div_ceil(inside.max(1));
+    let rows = (wrapped(text, inside).len() + keys_rows + 3) as u16;
     let place = middle(area, width, rows.min(area.height));
     let lines = vec![Line::raw(text.to_owned()), Line::raw(""), keys];
     let block = pane(theme, "sure?", true).border_style(theme.warn());

@@ -11,6 +11,9 @@ use crate::screens::marks::Marks;
 use crate::screens::state::State;
 use wardrobe::Part;
 
+/// Most entries that a question names.
+const NAMED: usize = 5;
+
 /// Screen of a part of the catalogue.
 fn screen_of(part: Part) -> Screen {
     match part {
@@ -51,7 +54,13 @@ pub fn remove(state: &mut State, part: Part, names: Vec<String>) {
     let what = match &names[..] {
         [] => return state.say(format!("no {part} is selected")),
         [name] => format!("{part} {name}"),
-        names => format!("{} {part}s: {}", names.len(), names.join(", ")),
+        [names @ .., last] if names.len() < NAMED => {
+            format!("{} {part}s: {} and {last}", names.len() + 1, names.join(", "))
+        }
+        names => {
+            let (named, others) = names.split_at(NAMED);
+            format!("{} {part}s: {} and {} others", names.len(), named.join(", "), others.len())
+        }
     };
     let text = format!("Remove {what}? Results that use it stay as they are.");
     state.ask(text, names.into_iter().map(|name| Effect::Do(Command::Remove(part, name))).collect());

@@ -241,6 +241,18 @@ fn a_new_study_is_chosen_from_the_catalogue() {
 }
 
 #[test]
+fn runs_that_do_not_fit_are_told_and_gone_to() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("4*c");
+    assert_eq!(bench.app.state.focus.compare.len(), 6);
+    assert!(bench.screen().contains(", 1 to 4 shown, h l others"), "{}", bench.screen());
+    assert!(bench.press("lll").screen().contains(", 3 to 6 shown"), "{}", bench.screen());
+    assert!(bench.press("h").screen().contains(", 2 to 5 shown"), "{}", bench.screen());
+    let mut bench = Bench::example(160, 50);
+    assert!(!bench.press("c").screen().contains("shown, h l"), "all fit");
+}
+
+#[test]
 fn several_queries_are_kept_beside_each_other() {
     let mut bench = Bench::example(80, 24);
     bench.press("7eselect 1<Esc>aselect 2<Esc>");

@@ -7,7 +7,8 @@ use crate::messages::message::Message;
 use crate::messages::requests::Command;
 use crate::messages::seams::{PreviewRequest, Previewed};
 use crate::overlays::Overlay;
-use crate::screens::styles::state::TableLine;
+use crate::screens::styles::asking::named;
+use crate::screens::styles::state::{EdgeAt, TableLine};
 use crate::widgets::theme::Colours;
 use results::preview::Hung;
 use store::files::SourceFile;
@@ -338,4 +339,39 @@ fn seams_are_written_by_hand_in_an_editor() {
     assert!(bench.status().contains("not found"));
     bench.press("7E");
     assert!(bench.asked().iter().any(|effect| matches!(effect, Effect::Write(Writing::Query(_)))));
+}
+
+#[test]
+fn a_question_points_at_its_edges() {
+    let bench = Bench::example(160, 50).press("3<Enter>").layout().clone();
+    let desk = &bench.out.desk;
+    let [one, two] = [desk.edge_name((0, 0)), desk.edge_name((1, 1))];
+    let id = &desk.pieces[1].id;
+    let check = |text: String, expect: &[EdgeAt]| assert_eq!(named(&text, &bench), expect, "{text}");
+    check(format!("Is {one} sewn to {two}."), &[(0, 0), (1, 1)]);
+    let all: Vec<EdgeAt> = (0..desk.pieces[1].edges.len()).map(|edge| (1, edge)).collect();
+    check(format!("What is {id} worn as?"), &all);
+    check("It has no name".to_owned(), &[]);
+
+    let mut bench = Bench::example(160, 50);
+    let marked = |bench: &Bench| bench.screen().matches('●').count();
+    bench.press("3<Enter>");
+    let before = marked(&bench);
+    bench.press("o");
+    assert!(marked(&bench) > before + 10, "the whole piece is marked: {}", bench.screen());
+}
+
+#[test]
+fn the_preview_is_cut_from_the_fabric_of_the_study() {
+    let fabric = |keys: &str| {
+        let mut bench = Bench::example(160, 50);
+        bench.press(keys);
+        let asked = bench.effects.iter().rev().find_map(|effect| match effect {
+            Effect::Preview(request) => Some(request.fabric.clone()),
+            _ => None,
+        });
+        asked.expect("it is asked for").unwrap_or_default()
+    };
+    assert_eq!(fabric("3"), "jersey");
+    assert_eq!(fabric("9jj3"), "stiff", "what was gone to counts more");
 }

@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
+use crossterm::event::MouseEventKind::{Drag, Moved, Up};
 use crossterm::event::{self, Event};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
@@ -45,7 +46,7 @@ impl Keyboard {
     }
 }
 
-/// Sends a message for each key.
+/// Sends a message for each key, click and turn of the wheel. Nothing follows a mouse that only moves.
 pub fn read_keys(keyboard: &Keyboard, sender: &Sender<Message>) {
     loop {
         let event = match keyboard.next().transpose() {
@@ -55,6 +56,7 @@ pub fn read_keys(keyboard: &Keyboard, sender: &Sender<Message>) {
         let message = match event {
             Ok(Event::Key(key)) => Message::Key(key),
             Ok(Event::Resize(width, height)) => Message::Resize(width, height),
+            Ok(Event::Mouse(event)) if matches!(event.kind, Moved | Drag(_) | Up(_)) => continue,
             Ok(Event::Mouse(event)) => Message::Mouse(event),
             Ok(_) => continue,
             Err(_) => Message::Hangup,

@@ -6,6 +6,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
+use crate::messages::seams::SizeLayout;
 use crate::screens::movement::stepped;
 use crate::screens::state::State;
 use crate::screens::styles::state::{Asking, EdgeAt, Own, StylesScreen, TableLine};
@@ -47,20 +48,7 @@ impl StylesScreen {
     #[must_use]
     pub fn pointed(&self, state: &State) -> Vec<EdgeAt> {
         let (Some(asked), Some(layout)) = (self.asked(state), self.laid_out(state)) else { return vec![] };
-        if !asked.edges.is_empty() {
-            return asked.edges;
-        }
-        let is_part = |letter: char| letter.is_alphanumeric() || "_.-".contains(letter);
-        let words = asked.text.split(|letter: char| !is_part(letter)).map(|word| word.trim_end_matches('.'));
-        let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
-        let desk = &layout.out.desk;
-        let edges = layout.edges();
-        let named: Vec<EdgeAt> =
-            edges.iter().copied().filter(|edge| words.contains(&desk.edge_name(*edge).as_str())).collect();
-        if !named.is_empty() {
-            return named;
-        }
-        edges.into_iter().filter(|(piece, _)| words.contains(&desk.pieces[*piece].id.as_str())).collect()
+        if asked.edges.is_empty() { named(&asked.text, layout) } else { asked.edges }
     }
 
     /// Starts asking: with the question of the selected line or, without one, with the first of the list. Where the
@@ -179,4 +167,19 @@ impl StylesScreen {
     pub fn is_asking(&self, state: &State) -> bool {
         state.nav.screen == Screen::Styles && self.asking.is_some()
     }
+}
+
+/// Edges that a text names; without any, those of the pieces that it names.
+#[must_use]
+pub fn named(text: &str, layout: &SizeLayout) -> Vec<EdgeAt> {
+    let is_part = |letter: char| letter.is_alphanumeric() || "_.-".contains(letter);
+    let words: Vec<&str> = text.split(|letter: char| !is_part(letter)).map(|word| word.trim_end_matches('.')).collect();
+    let desk = &layout.out.desk;
+    let edges = layout.edges();
+    let by_edge: Vec<EdgeAt> =
+        edges.iter().copied().filter(|edge| words.contains(&desk.edge_name(*edge).as_str())).collect();
+    if !by_edge.is_empty() {
+        return by_edge;
+    }
+    edges.into_iter().filter(|(piece, _)| words.contains(&desk.pieces[*piece].id.as_str())).collect()
 }

@@ -1,7 +1,7 @@
 //! Screen 3: the styles and sizes of the catalogue; for the selected size its seams, measurements and pieces.
 
 mod actions;
-mod asking;
+pub mod asking;
 mod draw;
 mod pieces;
 mod preview;
