@@ -7,7 +7,7 @@ use crate::evidence::judge::refresh_all;
 use crate::transaction::write;
 
 /// Changes of the schema in order, never edited once released. A database's `user_version` counts those it has.
-const MIGRATIONS: [&str; 19] = [
+const MIGRATIONS: [&str; 20] = [
     include_str!("../../db/migrations/0001_store.sql"),
     include_str!("../../db/migrations/0002_views.sql"),
     include_str!("../../db/migrations/0003_published.sql"),
@@ -27,6 +27,7 @@ const MIGRATIONS: [&str; 19] = [
     include_str!("../../db/migrations/0017_drawn.sql"),
     include_str!("../../db/migrations/0018_sizes.sql"),
     include_str!("../../db/migrations/0019_figures.sql"),
+    include_str!("../../db/migrations/0020_specifications.sql"),
 ];
 
 /// Version of the latest schema.
