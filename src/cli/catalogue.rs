@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::args::{Catalogue, FabricValues, PatternUnit, PersonValues, SizeValues, StyleCommand, StyleValues};
 use super::context::Context;
-use super::{CliError, End, Outcome, body, output};
+use super::{CliError, End, Outcome, body, output, spec_sheet};
 use spec::Given;
 use store::{Store, StudyError, Table, Value, sql};
 use wardrobe::{Imported, Mode, Part, Saved, ScanGiven, SizeRow, Strictness, StyleGiven, catalogue};
@@ -139,6 +139,7 @@ pub fn style(context: &Context, command: StyleCommand) -> Outcome {
     let (name, step) = match command {
         StyleCommand::Of(command) => return run(context, command),
         StyleCommand::Sew { name, step } => (name, step),
+        StyleCommand::Spec(arguments) => return spec_sheet::of_style(context, &arguments),
     };
     let mut store = context.store()?;
     let (style, size) = name.split_once('/').map_or((name.as_str(), None), |(style, size)| (style, Some(size)));

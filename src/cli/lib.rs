@@ -32,6 +32,8 @@ mod run;
 mod runs;
 mod section;
 mod sew;
+mod spec_sheet;
+mod spec_workbook;
 mod studies;
 #[cfg(test)]
 mod tests;

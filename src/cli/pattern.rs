@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::args::{DraftStyle, Pattern, SeamCommand, StyleFiles};
 use super::context::Context;
-use super::{CliError, End, Outcome, output, pattern_files, questions, sew};
+use super::{CliError, End, Outcome, output, pattern_files, questions, sew, spec_sheet};
 use geom::units::{from_mm, mm};
 use spec::patterns::{self, FileReport, Finding, Model, Unit};
 use store::{Table, Value, files};
@@ -45,6 +45,7 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
         Pattern::Pom { path, seams, cut, output } => {
             pattern_files::points_of_measure(context, path, seams.as_deref(), &cut.asking(&[]), output.as_deref())
         }
+        Pattern::Spec(arguments) => spec_sheet::of_pattern(context, arguments),
         Pattern::Features { path, files, output } => pattern_files::features(context, path, files, output.as_deref()),
         Pattern::Convert { path, files, seams, standard, with_rul, output } => {
             let standard = (*standard).into();

@@ -27,10 +27,12 @@ pub mod seam_edit;
 pub mod seams;
 pub mod size_order;
 pub mod source;
+pub mod spec_sheet;
 pub mod style;
 pub mod table;
 pub(crate) mod trade;
 mod unfold;
+pub mod workbook;
 
 pub use garment::{
     Band, FitLevel, Garment, MaterialLine, MaterialPoint, Measurement, MeasurementKind, PieceMesh, Reinforcement, Role,

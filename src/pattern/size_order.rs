@@ -6,6 +6,13 @@ pub fn sort<T>(sized: &mut [T], name: impl Fn(&T) -> &str) {
     sized.sort_by(|a, b| rank(name(a)).total_cmp(&rank(name(b))));
 }
 
+/// True if two names are of one size: equal but for case, or the same letters (XXL, 2XL).
+#[must_use]
+pub fn is_same(name: &str, other: &str) -> bool {
+    let [name, other] = [name, other].map(|name| name.trim().to_ascii_uppercase());
+    name == other || letters(&name).is_some_and(|rank| letters(&other) == Some(rank))
+}
+
 /// Sort key of a size.
 fn rank(size: &str) -> f64 {
     let size = size.trim().to_ascii_uppercase();
@@ -45,7 +52,19 @@ fn leading_number(size: &str) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::sort;
+    use super::{is_same, sort};
+
+    #[test]
+    fn one_size_may_have_two_names() {
+        let check = |name: &str, other: &str, expect: bool| assert_eq!(is_same(name, other), expect, "{name}, {other}");
+        check("m", "M", true);
+        check("XXL", "2XL", true);
+        check("38", "38", true);
+        check("", "", true);
+        check("", "M", false);
+        check("38", "40", false);
+        check("XL", "2XL", false);
+    }
 
     #[test]
     fn sizes_are_sorted_as_they_are_hung() {

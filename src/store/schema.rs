@@ -7,7 +7,7 @@ use crate::evidence::judge::refresh_all;
 use crate::transaction::write;
 
 /// Changes of the schema in order, never edited once released. A database's `user_version` counts those it has.
-const MIGRATIONS: [&str; 21] = [
+const MIGRATIONS: [&str; 22] = [
     include_str!("../../db/migrations/0001_store.sql"),
     include_str!("../../db/migrations/0002_views.sql"),
     include_str!("../../db/migrations/0003_published.sql"),
@@ -27,8 +27,9 @@ const MIGRATIONS: [&str; 21] = [
     include_str!("../../db/migrations/0017_drawn.sql"),
     include_str!("../../db/migrations/0018_sizes.sql"),
     include_str!("../../db/migrations/0019_figures.sql"),
-    include_str!("../../db/migrations/0022_decides.sql"),
-    include_str!("../../db/migrations/0023_comments.sql"),
+    include_str!("../../db/migrations/0020_specifications.sql"),
+    include_str!("../../db/migrations/0021_decides.sql"),
+    include_str!("../../db/migrations/0022_comments.sql"),
 ];
 
 /// Version of the latest schema.

@@ -36,6 +36,22 @@ pub enum WardrobeError {
         /// Path of the pattern.
         pattern: PathBuf,
     },
+    /// A specification sheet with none of the pattern's sizes.
+    #[error("{file}: found sizes {found}; accepted: those of the pattern, {accepted}")]
+    NoSizeOfSheet {
+        /// Name of the sheet's file.
+        file: String,
+        /// Sizes of the sheet.
+        found: String,
+        /// Sizes of the pattern.
+        accepted: String,
+    },
+    /// A style without a specification sheet.
+    #[error("style {style} has no specification sheet; give one with --sheet FILE")]
+    NoSpecSheet {
+        /// Name of the style.
+        style: String,
+    },
     /// A pattern without seams that is to become GarmentCode JSON.
     #[error("{pattern}: GarmentCode JSON holds seams: name a seam file (--seams FILE)")]
     NoSeams {

@@ -141,7 +141,7 @@ fn what_was_left_by_a_crash_is_there_again() {
     seat.wait_for("no study yet");
     seat.press("9<Down>");
     let kept = || {
-        std::fs::read_dir(place.path("state/toile"))
+        fs::read_dir(place.path("state/toile"))
             .into_iter()
             .flatten()
             .flatten()
@@ -164,12 +164,12 @@ fn ctrl_z_gives_the_terminal_to_the_shell_and_fg_takes_it_again() {
     let program = inner.get_program().to_string_lossy().into_owned();
     shell.arg("-c").arg(format!("set -m; '{program}'; echo back in the shell; read line; fg >&2; echo end"));
     shell.current_dir(inner.get_current_dir().expect("a folder"));
-    inner.get_envs().for_each(|(name, value)| {
-        drop(match value {
+    for (name, value) in inner.get_envs() {
+        match value {
             Some(value) => shell.env(name, value),
             None => shell.env_remove(name),
-        })
-    });
+        };
+    }
     let Some(mut seat) = Seat::take(&shell, 80, 24) else { return };
     seat.wait_for("no study yet");
     seat.press("9");
@@ -193,7 +193,7 @@ fn a_copy_says_where_it_is() {
     fs::set_permissions(&tmux, std::os::unix::fs::PermissionsExt::from_mode(0o755)).expect("ours");
     let check = |set: &[(&str, String)], told: &str| {
         let mut command = workbench(&place);
-        set.iter().for_each(|(name, value)| drop(command.env(name, value)));
+        command.envs(set.iter().map(|(name, value)| (name, value)));
         let Some(mut seat) = Seat::take(&command, 160, 24) else { return };
         seat.wait_for("1 Study");
         seat.press("9");

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, Subcommand};
 
 use super::measured::{flag, given};
-use super::{MeshUnit, PatternUnit, SewStep};
+use super::{MeshUnit, PatternUnit, SewStep, StyleSpec};
 use spec::{FABRIC_NUMBERS, Field, Given, MEASUREMENTS};
 
 /// Commands on one part of the catalogue.
@@ -67,6 +67,8 @@ pub enum StyleCommand {
         #[command(subcommand)]
         step: SewStep,
     },
+    /// The buyer's specification sheet of a style: keep it, answer what is asked about its rows, show it beside the pattern.
+    Spec(StyleSpec),
 }
 
 /// Values of a subject, by key.

@@ -22,6 +22,7 @@ mod report;
 mod seam;
 mod sew;
 mod simulator;
+mod spec;
 mod studies;
 
 pub use alter::Alter;
@@ -37,6 +38,7 @@ pub use report::{Purpose, Report};
 pub use seam::{SeamCommand, SewStep};
 pub use sew::SewFiles;
 pub use simulator::TrySimulator;
+pub use spec::{PatternSpec, StyleSpec};
 pub use studies::{StudyCommand, StudyPath};
 
 /// A fit-study workbench: dress bodies in sewing patterns, measure the drape, judge the fit.

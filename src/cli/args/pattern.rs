@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
 
-use super::{CutFiles, PatternUnit, SeamCommand, SewFiles};
+use super::{CutFiles, PatternSpec, PatternUnit, SeamCommand, SewFiles};
 use wardrobe::seams::pattern_files::Standard;
 
 /// Standard by which a DXF file is written.
@@ -142,6 +142,8 @@ pub enum Pattern {
         #[arg(long, short, value_name = "FILE")]
         output: Option<PathBuf>,
     },
+    /// A buyer's specification sheet beside the pattern: the point of measure of each row, its deviation, in or out.
+    Spec(PatternSpec),
     /// The features of the pieces as JSON: outline, corners, edges, grain, notches, points, lines, information.
     Features {
         /// DXF file, GarmentCode JSON, or features.

@@ -5,12 +5,11 @@
 //! there is such a column, its size. `quantity` replaces the quantity of the piece. `grain_deg` gives a grain line to a
 //! piece without one. Every other column becomes a text of the piece. An empty cell changes nothing.
 
-mod xlsx;
-
 use super::dxf::PatternFile;
 use super::garment::Role;
 use super::piece::Piece;
 use super::table;
+use super::workbook::{Workbook, is_error};
 use geom::V2;
 
 /// Names of the column that identifies the piece of a row.
@@ -66,7 +65,7 @@ pub fn read(bytes: &[u8], file: &str) -> Result<PieceTable, InfoError> {
         return Err(fail(None, format!("{} MB", bytes.len() >> 20), "a table of at most 16 MB"));
     }
     let mut rows = if bytes.starts_with(b"PK") {
-        xlsx::rows(bytes).map_err(|found| fail(None, found, "an XLSX workbook whose first sheet is the table"))?
+        workbook_rows(bytes).map_err(|found| fail(None, found, "an XLSX workbook whose first sheet is the table"))?
     } else {
         csv_rows(bytes)
             .map_err(|(row, found)| fail(Some(row), found, "CSV in UTF-8, with as many cells in every row"))?
@@ -87,6 +86,16 @@ pub fn read(bytes: &[u8], file: &str) -> Result<PieceTable, InfoError> {
         }
     }
     Ok(table)
+}
+
+/// Rows of the first sheet of a workbook. The error is what is wrong with it.
+fn workbook_rows(bytes: &[u8]) -> Result<Vec<Row>, String> {
+    let sheet = Workbook::open(bytes)?.sheet(0)?;
+    let mut faults = sheet.rows.iter().flat_map(|row| row.cells.iter().map(move |cell| (row.line, cell)));
+    if let Some((line, cell)) = faults.find(|(_, cell)| is_error(cell)) {
+        return Err(format!("the error value {cell} in row {line}"));
+    }
+    Ok(sheet.rows.into_iter().map(|row| (row.line, row.cells)).collect())
 }
 
 /// Rows of CSV with their numbers. The error is the number of a malformed row and what is wrong with it.

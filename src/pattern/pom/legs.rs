@@ -104,7 +104,7 @@ impl<'a> Legs<'a> {
             found.push(anatomy.along_path(Point::Outseam, self.up_to_edge(outer), 1.0));
         }
         let inseam_m: f64 = front.seam.iter().map(|step| anatomy.length_m(&[step.edge])).sum();
-        let round = |below_m: f64| anatomy.along(&front.seam, below_m).and_then(|at| anatomy.ways.round(at));
+        let round = |below_m: f64| self.round_below_fork(below_m);
         found.extend(round(THIGH_BELOW_FORK_M).map(|path| anatomy.along_path(Point::HalfThigh, path, 0.5)));
         if inseam_m >= LONG_M {
             let knee = round(0.5 * inseam_m - KNEE_ABOVE_MIDDLE_M);
@@ -112,6 +112,12 @@ impl<'a> Legs<'a> {
         }
         found.extend(self.hip());
         found
+    }
+
+    /// Path round the leg at a distance below the fork along the inseam of the front, m. `None` past the end of the seam.
+    pub fn round_below_fork(&self, below_m: f64) -> Option<Vec<PathPart>> {
+        let anatomy = self.anatomy;
+        anatomy.along(&self.inner[0].seam, below_m).and_then(|at| anatomy.ways.round(at))
     }
 
     /// Outseam of the front, from its upper end. `None` for a leg in one piece.

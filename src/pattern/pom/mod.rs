@@ -8,6 +8,7 @@ pub(crate) mod anatomy;
 mod body_levels;
 mod hang;
 pub(crate) mod legs;
+mod own;
 pub(crate) mod skirt;
 mod sleeve;
 #[cfg(test)]
@@ -19,6 +20,7 @@ use self::anatomy::Anatomy;
 pub use self::body_levels::{Stand, WornLength};
 pub use self::hang::HangLines;
 use self::legs::Legs;
+pub use self::own::{Measure, OwnKind};
 use self::sleeve::Sleeve;
 use self::top::Trunk;
 use super::style::{PathPart, Style};

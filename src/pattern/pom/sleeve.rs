@@ -40,11 +40,8 @@ impl<'a> Sleeve<'a> {
     pub fn points(&self) -> Vec<PointOfMeasure> {
         let anatomy = self.anatomy;
         let openings = anatomy.style().openings(&|piece| self.holds(piece));
-        let is_sewn_to_trunk = |edge: &EdgeRef| {
-            anatomy.ways.partners(*edge).iter().any(|other| matches!(anatomy.parts[other.piece], Part::Trunk(_)))
-        };
         let (caps, lower): (Vec<&Vec<EdgeRef>>, Vec<&Vec<EdgeRef>>) =
-            openings.iter().partition(|opening| opening.iter().any(is_sewn_to_trunk));
+            openings.iter().partition(|opening| opening.iter().any(|edge| self.is_sewn_to_trunk(*edge)));
         let mut found = Vec::new();
         if let [end] = lower.as_slice() {
             let cuff = anatomy.beyond(end, |piece| self.holds(piece));
@@ -52,10 +49,33 @@ impl<'a> Sleeve<'a> {
         }
         let Some(cap) = caps.first() else { return found };
         found.extend(self.way.clone().map(|way| anatomy.along_path(Point::SleeveLength, way, 1.0)));
-        let below = self.underarm(cap).and_then(|seam| anatomy.along(&seam, BELOW_ARMHOLE_M));
-        let path = below.and_then(|at| anatomy.ways.round(at));
+        let path = self.round_from(cap, BELOW_ARMHOLE_M);
         found.extend(path.map(|path| anatomy.along_path(Point::HalfBicep, path, 0.5)));
         found
+    }
+
+    /// Path round the sleeve at a distance below its cap along the underarm seam, m.
+    fn round_from(&self, cap: &[EdgeRef], below_m: f64) -> Option<Vec<PathPart>> {
+        let below = self.underarm(cap).and_then(|seam| self.anatomy.along(&seam, below_m));
+        below.and_then(|at| self.anatomy.ways.round(at))
+    }
+
+    /// Path round the sleeve at a distance below the armhole along the underarm seam, m. `None` past the end of the seam.
+    pub fn round_below_armhole(&self, below_m: f64) -> Option<Vec<PathPart>> {
+        let openings = self.anatomy.style().openings(&|piece| self.holds(piece));
+        let cap = openings.iter().find(|opening| opening.iter().any(|edge| self.is_sewn_to_trunk(*edge)))?;
+        self.round_from(cap, below_m)
+    }
+
+    /// Path round the sleeve at a distance above its lower edge along the arm, m.
+    pub fn round_above_cuff(&self, above_m: f64) -> Option<Vec<PathPart>> {
+        let length_m = self.anatomy.style().path_length_m(self.way.as_ref()?);
+        self.round(length_m - above_m)
+    }
+
+    fn is_sewn_to_trunk(&self, edge: EdgeRef) -> bool {
+        let anatomy = self.anatomy;
+        anatomy.ways.partners(edge).iter().any(|other| matches!(anatomy.parts[other.piece], Part::Trunk(_)))
     }
 
     /// Path round the sleeve at a distance from the shoulder point along the arm, m. `None` past the end of the sleeve.

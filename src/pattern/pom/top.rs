@@ -145,9 +145,9 @@ impl<'a> Trunk<'a> {
         let anatomy = self.anatomy;
         let mut found = Vec::new();
         let side = &self.sides[0][0];
-        let round = |below_m: f64| anatomy.along(side, below_m).and_then(|at| anatomy.ways.round(at));
-        let chest_m = BELOW_ARMHOLE_M + self.dip_m(side);
-        found.extend(round(chest_m).map(|path| anatomy.along_path(Point::HalfChest, path, 0.5)));
+        let round = |below_m: f64| self.round_along(side, below_m);
+        let chest = self.round_below_armhole(BELOW_ARMHOLE_M);
+        found.extend(chest.map(|path| anatomy.along_path(Point::HalfChest, path, 0.5)));
         let is_trunk = |piece: usize| matches!(anatomy.parts[piece], Part::Trunk(_));
         if anatomy.has_below(&self.bottom) {
             found.push(anatomy.along_edges(Point::HalfWaist, &self.bottom, 0.5));
@@ -163,6 +163,27 @@ impl<'a> Trunk<'a> {
         let hem = Some(&self.bottom).filter(|bottom| !bottom.is_empty()).and_then(|b| anatomy.beyond(b, is_trunk));
         found.extend(hem.map(|hem| anatomy.along_edges(Point::HalfHem, &hem, 0.5)));
         found
+    }
+
+    /// Path round the body at a distance along a side seam, m.
+    fn round_along(&self, side: &Chain, below_m: f64) -> Option<Vec<PathPart>> {
+        self.anatomy.along(side, below_m).and_then(|at| self.anatomy.ways.round(at))
+    }
+
+    /// Path round the body at a distance below the armhole along the side seam, m. `None` past the end of the seam.
+    pub fn round_below_armhole(&self, below_m: f64) -> Option<Vec<PathPart>> {
+        let side = &self.sides[0][0];
+        self.round_along(side, below_m + self.dip_m(side))
+    }
+
+    /// Path round the body at a distance straight down the front from the high point of the shoulder, m. `None` above
+    /// the armhole, and past the lower edge.
+    pub fn round_below_neck(&self, below_m: f64) -> Option<Vec<PathPart>> {
+        let underarm_m = self.underarm_below_neck_m()?;
+        let down = self.way_down()?;
+        let ways = &self.anatomy.ways;
+        let at = ways.along(&down.path, below_m - down.below_neck_m).filter(|_| below_m >= underarm_m)?;
+        ways.round_through(at)
     }
 
     /// Depth of the armhole below the upper end of a side seam, m: a panel between front and back is hollow at the top.
@@ -347,10 +368,32 @@ impl<'a> Trunk<'a> {
 
     /// Width of front or back half-way up the armhole.
     fn across(&self, face: Face) -> Option<PointOfMeasure> {
+        let starts = self.armholes.iter().filter_map(|k| self.half_way_up(*k, face));
+        self.across_from(face, &starts.collect::<Vec<_>>())
+    }
+
+    /// Width of front or back at a distance below the high point of the shoulder, m. `None` where no armhole is.
+    pub fn across_below_neck_m(&self, face: Face, below_m: f64) -> Option<f64> {
+        let anatomy = self.anatomy;
+        let level = |armhole: &usize| {
+            let own = self.openings[*armhole].iter().filter(|edge| anatomy.parts[edge.piece] == Part::Trunk(face));
+            let own: Vec<EdgeRef> = own.copied().collect();
+            // A yoke has the high point, and the piece below it the armhole: they have no level in common.
+            let high =
+                self.high_points(face).into_iter().find(|high| own.iter().any(|edge| edge.piece == high.edge.piece))?;
+            let top = anatomy.place(high).y;
+            let own: Vec<EdgeRef> = own.into_iter().filter(|edge| edge.piece == high.edge.piece).collect();
+            anatomy.meeting(&own, |p| p.y - top + below_m)
+        };
+        let starts: Vec<EdgePoint> = self.armholes.iter().filter_map(level).collect();
+        self.across_from(face, &starts).map(|found| found.length_m)
+    }
+
+    /// Width of front or back from armhole to armhole, level from a point of each.
+    fn across_from(&self, face: Face, starts: &[EdgePoint]) -> Option<PointOfMeasure> {
         let anatomy = self.anatomy;
         let point = if face == Face::Front { Point::AcrossFront } else { Point::AcrossBack };
         let is_armhole = |edge: EdgeRef| self.armholes.iter().any(|k| self.openings[*k].contains(&edge));
-        let starts: Vec<EdgePoint> = self.armholes.iter().filter_map(|k| self.half_way_up(*k, face)).collect();
         let first = *starts.first()?;
         let ahead = anatomy.ways.walk(first, Heading::Level, |at| is_armhole(at.edge))?;
         if is_armhole(ahead.end.edge) {

@@ -3,6 +3,7 @@
 use crate::assessment::{GarmentWorn, SizeWorn};
 use crate::cross_section::{self, CutAt};
 use crate::fit_card::{FitCard, LevelSits, Sits, SizeSits};
+use crate::reporting::spec_tables::specification;
 use fit::target::band_words;
 use geom::units::signed_tenths;
 use pattern::pom::Point;
@@ -39,6 +40,7 @@ fn sheet(store: &Store, worn: &GarmentWorn, comments: &[&Comment]) -> Result<Fit
     if drapes.iter().any(Option::is_some) {
         tables.push(hang(&drapes, &names));
         tables.push(points(&drapes, &names));
+        tables.push(specification(store, &jobs, &names)?);
     }
     Ok(FitSheet {
         garment: card.garment.clone(),

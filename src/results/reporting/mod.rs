@@ -6,6 +6,7 @@ mod fit_sheets;
 mod published;
 mod runs;
 mod sheets;
+mod spec_tables;
 
 use crate::assessment;
 use crate::reporting::facts::BodyFacts;

@@ -260,6 +260,9 @@ pub fn remove(transaction: &Transaction<'_>, part: Part, name: &str) -> Result<R
         transaction.execute(sql, [part.as_str(), name])?;
     } else {
         transaction.execute(&format!("DELETE FROM {table} WHERE {named} = ?"), [name])?;
+        if part == Part::Style {
+            transaction.execute("DELETE FROM spec_sheet WHERE style = ?", [name])?;
+        }
         transaction.execute("DELETE FROM catalogue_entry WHERE part = ? AND name = ?", [part.as_str(), name])?;
     }
     Ok(Removed { part, name: name.to_owned(), jobs, is_hidden })

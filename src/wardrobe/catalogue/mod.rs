@@ -10,6 +10,9 @@ mod numbers;
 mod percentiles;
 pub mod revision;
 mod sizes;
+mod spec_sheet;
+#[cfg(test)]
+mod spec_tests;
 mod style;
 mod table;
 #[cfg(test)]
@@ -36,6 +39,7 @@ pub use import::{Imported, Strictness, import};
 pub use known::{StyleFiles, SubjectRow, known, person, read_fabric, read_style, subject, subject_revision, subjects};
 pub use percentiles::{doubts, is_doubtful, percentile, percentile_text};
 pub use sizes::{SizeRow, sizes, style_of, workpiece};
+pub use spec_sheet::{SpecGiven, keep_spec, spec};
 pub use style::{StyleGiven, save_seams, save_size, save_style};
 
 /// Opens a database with a catalogue. Without `readonly` it is created where it is missing, and brought up to date with

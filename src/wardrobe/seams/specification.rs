@@ -45,11 +45,24 @@ pub struct Specification {
     pub drawing: String,
 }
 
-/// Measures every size of a pattern at its points of measure. Without a seam file the pattern is sewn as proposed.
+/// Sizes of a pattern, sewn.
+pub struct Sized {
+    /// Name of the pattern.
+    pub garment: String,
+    /// Names of the sizes, the smallest first.
+    pub sizes: Vec<String>,
+    /// Style of each size.
+    pub styles: Vec<Style>,
+    /// Remarks for the reader, as sentences.
+    pub notes: Vec<String>,
+}
+
+/// Reads every size of a pattern. Without a seam file the pattern is sewn as proposed. A size that cannot be sewn is left
+/// out with a note.
 ///
 /// # Errors
-/// When a file cannot be read, a size does not fit the seams, or no piece has a role by which points are found.
-pub fn specification(pattern: &Path, seams: Option<&Path>, how: &Asking<'_>) -> Result<Specification> {
+/// When a file cannot be read, or no size fits the seams.
+pub fn sized(pattern: &Path, seams: Option<&Path>, how: &Asking<'_>) -> Result<Sized> {
     let source = SourceFile::read_pattern(pattern)?;
     let garment = pattern.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let mut notes = Vec::new();
@@ -75,12 +88,20 @@ pub fn specification(pattern: &Path, seams: Option<&Path>, how: &Asking<'_>) -> 
                 read.push(size.clone());
                 styles.push(style);
             }
-            // Such a size is left out with a note, unless no size can be sewn.
             Err(error) if size == &sizes[sizes.len() - 1] && styles.is_empty() => return Err(error),
             Err(error) => notes.push(format!("size {size} is left out: {error}")),
         }
     }
-    let mut found = Specification::of(garment, read, &styles);
+    Ok(Sized { garment, sizes: read, styles, notes })
+}
+
+/// Measures every size of a pattern at its points of measure. Without a seam file the pattern is sewn as proposed.
+///
+/// # Errors
+/// When a file cannot be read, a size does not fit the seams, or no piece has a role by which points are found.
+pub fn specification(pattern: &Path, seams: Option<&Path>, how: &Asking<'_>) -> Result<Specification> {
+    let Sized { garment, sizes, styles, notes } = sized(pattern, seams, how)?;
+    let mut found = Specification::of(garment, sizes, &styles);
     found.notes.splice(0..0, notes);
     if found.points.is_empty() {
         return Err(WardrobeError::NoPoint { pattern: pattern.to_owned() }.into());

@@ -1,4 +1,4 @@
-//! Cells of the first sheet of an XLSX workbook [ECMA-376], which is a ZIP archive of XML.
+//! Cells of an XLSX workbook [ECMA-376], which is a ZIP archive of XML.
 //!
 //! Numbers and texts are read: shared, inline, and results of formulas. Styles are ignored, so a date is read as its
 //! serial number. ZIP64, encryption and compression other than deflate are refused.
@@ -8,44 +8,122 @@ use std::io::Read;
 use flate2::read::DeflateDecoder;
 use roxmltree::{Document, Node};
 
-use super::Row;
+use super::table::Row;
 
 /// Greatest size of an unpacked part, bytes.
 const MOST_UNPACKED: u64 = 64 << 20;
-/// Greatest number of columns of a table.
+/// Greatest number of columns of a sheet.
 const MOST_COLUMNS: usize = 200;
 /// Local header, central entry and end of central directory of a ZIP archive [PKWARE APPNOTE].
 const LOCAL: [u8; 4] = *b"PK\x03\x04";
 const CENTRAL: [u8; 4] = *b"PK\x01\x02";
 const END: [u8; 4] = *b"PK\x05\x06";
 
-/// Rows with their numbers in the sheet.
-///
-/// # Errors
-/// A message on the fault of the workbook.
-pub fn rows(bytes: &[u8]) -> Result<Vec<Row>, String> {
-    let archive = Archive::open(bytes)?;
-    let shared = match archive.find("xl/sharedStrings.xml") {
-        Some(entry) => shared_strings(&archive.text(entry)?)?,
-        None => Vec::new(),
-    };
-    let sheet = archive.text(archive.first_sheet()?)?;
-    let document = parse(&sheet)?;
-    let mut rows = Vec::new();
+/// Cells that are merged into one: first and last row, numbered as in the sheet, and first and last column, from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Merged {
+    /// First and last row.
+    pub rows: [usize; 2],
+    /// First and last column.
+    pub columns: [usize; 2],
+}
+
+/// A sheet of a workbook.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Sheet {
+    /// Name of the sheet.
+    pub name: String,
+    /// Rows, numbered as in the sheet. An error value such as `#REF!` stands in its cell.
+    pub rows: Vec<Row>,
+    /// Merged cells.
+    pub merged: Vec<Merged>,
+}
+
+/// A workbook.
+pub struct Workbook<'a> {
+    archive: Archive<'a>,
+    shared: Vec<String>,
+    /// Names of the sheets, and the parts of the archive that hold them.
+    sheets: Vec<(String, String)>,
+}
+
+impl<'a> Workbook<'a> {
+    /// Opens a workbook.
+    ///
+    /// # Errors
+    /// A message on the fault of the workbook, such as bytes that are no ZIP archive.
+    pub fn open(bytes: &'a [u8]) -> Result<Self, String> {
+        let archive = Archive::open(bytes)?;
+        let shared = match archive.find("xl/sharedStrings.xml") {
+            Some(entry) => shared_strings(&archive.text(entry)?)?,
+            None => Vec::new(),
+        };
+        let sheets = archive.sheets()?;
+        Ok(Self { archive, shared, sheets })
+    }
+
+    /// Names of the sheets, in the order of the workbook.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.sheets.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// Reads a sheet by its index in [`Workbook::names`].
+    ///
+    /// # Errors
+    /// A message on the fault of the sheet.
+    pub fn sheet(&self, index: usize) -> Result<Sheet, String> {
+        let none = || "an archive without a worksheet".to_owned();
+        let (name, path) = self.sheets.get(index).ok_or_else(none)?;
+        let text = self.archive.text(self.archive.find(path).ok_or_else(none)?)?;
+        let document = parse(&text)?;
+        let merged = document.descendants().filter(|node| node.has_tag_name_in("mergeCell"));
+        let merged = merged.filter_map(|node| merged_cells(node.attribute("ref")?)).collect();
+        Ok(Sheet { name: name.clone(), rows: rows(&document, &self.shared)?, merged })
+    }
+}
+
+fn rows(document: &Document<'_>, shared: &[String]) -> Result<Vec<Row>, String> {
+    let mut rows: Vec<Row> = Vec::new();
     for row in document.descendants().filter(|node| node.has_tag_name_in("row")) {
-        let number = row.attribute("r").and_then(|r| r.parse().ok()).unwrap_or(rows.len() + 1);
+        let line = row.attribute("r").and_then(|r| r.parse().ok()).unwrap_or(rows.len() + 1);
         let mut cells = Vec::new();
         for cell in row.children().filter(|node| node.has_tag_name_in("c")) {
             let column = cell.attribute("r").map_or(cells.len(), column_of);
             if column >= MOST_COLUMNS {
-                return Err(format!("row {number} with a cell in column {}", column + 1));
+                return Err(format!("row {line} with a cell in column {}", column + 1));
             }
             cells.resize(cells.len().max(column + 1), String::new());
-            cells[column] = value(&cell, &shared).map_err(|found| format!("{found} in row {number}"))?;
+            cells[column] = value(&cell, shared).map_err(|found| format!("{found} in row {line}"))?;
         }
-        rows.push((number, cells));
+        rows.push(Row { line, cells });
     }
     Ok(rows)
+}
+
+/// Merged cells from their name, such as `B2:D3`.
+fn merged_cells(name: &str) -> Option<Merged> {
+    let (first, last) = name.split_once(':')?;
+    let row = |cell: &str| cell.trim_start_matches(|c: char| c.is_ascii_alphabetic()).parse::<usize>().ok();
+    Some(Merged { rows: [row(first)?, row(last)?], columns: [first, last].map(column_of) })
+}
+
+/// Name of a cell as spreadsheets write it, such as `AB12`. Columns count from 0, rows from 1.
+#[must_use]
+pub fn cell_name(column: usize, row: usize) -> String {
+    let mut letters = Vec::new();
+    let mut rest = column + 1;
+    while rest > 0 {
+        letters.push(b'A' + ((rest - 1) % 26) as u8);
+        rest = (rest - 1) / 26;
+    }
+    let letters: String = letters.into_iter().rev().map(char::from).collect();
+    format!("{letters}{row}")
+}
+
+/// True for an error value, such as `#REF!`.
+#[must_use]
+pub fn is_error(cell: &str) -> bool {
+    cell.starts_with('#') && (cell.ends_with(['!', '?']) || cell == "#N/A")
 }
 
 /// Comparison of element names, ignoring namespaces.
@@ -90,7 +168,6 @@ fn value(cell: &Node<'_, '_>, shared: &[String]) -> Result<String, String> {
             index.and_then(|index| shared.get(index)).cloned().ok_or_else(|| format!("shared text `{own}`"))?
         }
         Some("inlineStr") => text_below(cell),
-        Some("e") => return Err(format!("the error value {own}")),
         _ => own.to_owned(),
     };
     Ok(text.trim().to_owned())
@@ -143,23 +220,24 @@ impl<'a> Archive<'a> {
         self.entries.iter().find(|entry| entry.name.eq_ignore_ascii_case(name))
     }
 
-    /// First sheet in the list of the workbook.
-    fn first_sheet(&self) -> Result<&Entry, String> {
+    /// Names and parts of the worksheets, in the order of the workbook. A sheet that is not in the archive is left out.
+    fn sheets(&self) -> Result<Vec<(String, String)>, String> {
         let none = || "an archive without a worksheet".to_owned();
         let workbook = self.text(self.find("xl/workbook.xml").ok_or_else(none)?)?;
         let relations = self.text(self.find("xl/_rels/workbook.xml.rels").ok_or_else(none)?)?;
-        let document = parse(&workbook)?;
-        let sheet = document.descendants().find(|node| node.has_tag_name_in("sheet")).ok_or_else(none)?;
-        let id = sheet.attributes().find(|attribute| attribute.name() == "id" && attribute.namespace().is_some());
-        let id = id.map(|attribute| attribute.value()).ok_or_else(none)?;
-        let document = parse(&relations)?;
-        let target = document.descendants().find(|node| node.attribute("Id") == Some(id));
-        let target = target.and_then(|node| node.attribute("Target")).ok_or_else(none)?;
-        let path = match target.strip_prefix('/') {
-            Some(path) => path.to_owned(),
-            None => format!("xl/{target}"),
+        let (document, relations) = (parse(&workbook)?, parse(&relations)?);
+        let path_of = |sheet: &Node<'_, '_>| {
+            let id =
+                sheet.attributes().find(|attribute| attribute.name() == "id" && attribute.namespace().is_some())?;
+            let target = relations.descendants().find(|node| node.attribute("Id") == Some(id.value()))?;
+            let target = target.attribute("Target")?;
+            let path = target.strip_prefix('/').map_or_else(|| format!("xl/{target}"), str::to_owned);
+            self.find(&path).map(|entry| entry.name.clone())
         };
-        self.find(&path).ok_or_else(none)
+        let sheets = document.descendants().filter(|node| node.has_tag_name_in("sheet"));
+        let sheets =
+            sheets.filter_map(|sheet| Some((sheet.attribute("name").unwrap_or_default().to_owned(), path_of(&sheet)?)));
+        Some(sheets.collect::<Vec<_>>()).filter(|sheets| !sheets.is_empty()).ok_or_else(none)
     }
 
     fn text(&self, entry: &Entry) -> Result<String, String> {
