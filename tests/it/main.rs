@@ -30,6 +30,7 @@ mod reference;
 mod report;
 mod run;
 mod seat;
+mod specification;
 mod structure;
 mod tidy;
 mod together;

@@ -80,7 +80,7 @@ const RULES: [Rule; 50] = [
     rule(Point::Shoulder, &[&["shoulder"], &["length", "seam", "width"]], &["hps", "neck", "armhole"]),
     rule(Point::Shoulder, &[&["shoulder"]], &[]),
     rule(Point::Armhole, &[&["armhole"]], &[]),
-    rule(Point::SleeveLength, &[&["sleeve"], &["length"]], &["hps", "shoulder"]),
+    rule(Point::SleeveLength, &[&["sleeve"], &["length"]], &["hps", "shoulder", "hem", "cuff"]),
     rule(Point::HalfBicep, &[&["bicep"]], &["sleeve", "armhole"]),
     rule(Point::HalfBicep, &[&["sleeve"], &["width"]], &["armhole"]),
     rule(Point::HalfCuff, &[&["cuff"]], &["sleeve", "hem", "straight"]),
@@ -93,7 +93,7 @@ const RULES: [Rule; 50] = [
     rule(Point::BackRise, &[&["rise", "crotch"]], &["back", "cb", "length", "depth", "waistband", "waist", "crotch"]),
     rule(Point::Inseam, &[&["inseam"]], &["leg", "length", "crotch", "hem"]),
     rule(Point::Outseam, &[&["outseam"]], &["leg", "length", "waist", "waistband", "hem"]),
-    rule(Point::HalfThigh, &[&["thigh"]], &["leg", "crotch"]),
+    rule(Point::HalfThigh, &[&["thigh"]], &["leg"]),
     rule(Point::HalfKnee, &[&["knee"]], &["leg"]),
 ];
 
@@ -225,4 +225,33 @@ fn at_place(told: &Told, place: Place, unit: Unit) -> Meant {
     let found: Vec<&Placed> = PLACES.iter().filter(fits).collect();
     let sure = found.iter().copied().find(is_sure).map(measure);
     Meant { sure: sure.into_iter().collect(), partly: found.into_iter().map(measure).collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::words;
+    use super::*;
+
+    #[test]
+    fn a_description_means_what_all_its_words_say() {
+        let check = |description: &str, expect: &[&str]| {
+            let found = meant(&words::read(description), Unit::Cm).sure;
+            let names: Vec<String> = found.iter().map(ToString::to_string).collect();
+            assert_eq!(names, expect, "{description}");
+        };
+        check("Thigh", &["half_thigh"]);
+        check("Thigh at crotch", &[]);
+        check("Thigh 2.5 cm below crotch", &["half_thigh"]);
+        check("Thigh 5 cm below crotch", &["half_below_fork@50"]);
+        check("Sleeve length (shoulder to hem)", &["sleeve_length"]);
+        check("Front rise excl. waistband", &[]);
+        check("Rise", &["front_rise", "back_rise"]);
+        check("Sleeve width", &["half_bicep", "half_cuff"]);
+        check("Sleeve width 2.5 cm below armhole", &["half_bicep"]);
+        check("Hip 18 cm below waistband", &[]);
+        check("Seat, 20 cm below waist", &["half_below_waist@200"]);
+        check("Width 10 cm up from bottom", &["half_above_hem@100"]);
+        check("X-chest 13 cm below HPS", &["across_front_below_hps@130"]);
+        check("Pocket placement from HPS", &[]);
+    }
 }

@@ -270,9 +270,10 @@ impl SpecReport {
     pub fn summary(&self) -> String {
         let judged = self.lines.iter().filter(|line| line.verdict.is_some()).count();
         let out = self.lines.iter().filter(|line| line.is_out()).count();
+        let unit = if self.unit == "in" { "inches" } else { &self.unit };
         format!(
-            "{} of {} rows are points of measure, in {} ({}); {out} of {judged} lengths are out of tolerance",
-            self.matched, self.rows, self.unit, self.unit_from
+            "{} of {} rows are points of measure, in {unit} ({}); {out} of {judged} lengths are out of tolerance",
+            self.matched, self.rows, self.unit_from
         )
     }
 }
