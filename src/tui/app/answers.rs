@@ -5,12 +5,16 @@ use crate::messages::effect::{Effect, Writing};
 use crate::messages::snapshot::{Place, Snapshot};
 use crate::overlays::Overlay;
 use crate::screens::measurements;
+use engine::Ending;
+use store::Status;
 use wardrobe::Part;
 
 impl App {
-    /// Stores what was read from the database.
-    pub fn receive(&mut self, snapshot: Box<Snapshot>) {
+    /// Stores what was read from the database. Tells the end of a run that another process made of the shown study.
+    pub fn receive(&mut self, snapshot: Box<Snapshot>) -> Vec<Effect> {
+        let ended = self.ended_elsewhere(&snapshot);
         let state = &mut self.state;
+        state.running.is_settling &= snapshot.study().is_some_and(|study| study.count(Status::Running) > 0);
         let had_grid = state.grid().is_some();
         state.focus.study = snapshot.study().map(|study| study.name.clone());
         state.focus.garment = snapshot.grid.as_ref().map(|grid| grid.garment.clone());
@@ -32,6 +36,24 @@ impl App {
             None if !had_grid || known.is_none() => state.select_cell(state.place),
             None => {}
         }
+        let Some(ending) = ended else { return vec![] };
+        state.told.commands.push(format!("# a run elsewhere has ended: {ending}"));
+        state.say(format!("a run elsewhere has ended: {ending}"));
+        vec![Effect::Notify(ending)]
+    }
+
+    /// Numbers of the jobs of the shown study, if jobs ran elsewhere at the last reading and none is open now.
+    fn ended_elsewhere(&self, now: &Snapshot) -> Option<String> {
+        let before = self.state.study().filter(|study| study.count(Status::Running) > 0)?;
+        let study = now.study().filter(|study| study.name == before.name)?;
+        let is_open = study.count(Status::Running) + study.count(Status::Queued) > 0;
+        let is_own = self.state.running.target.is_some() || self.state.running.is_settling;
+        if is_open || is_own {
+            return None;
+        }
+        let counts = Status::ALL.into_iter().map(|status| (status, study.count(status)));
+        let ran = counts.filter(|(_, jobs)| *jobs > 0).collect();
+        Some(Ending { study: study.name.clone(), ran, as_before: 0 }.to_string())
     }
 
     /// Closes the form whose entry was saved; a refusal is shown in the form instead.
@@ -80,7 +102,7 @@ impl App {
 
     /// Handles the end of the run that was started here.
     pub fn run_ended(&mut self, outcome: Result<String, String>) -> Vec<Effect> {
-        self.state.running.target = None;
+        (self.state.running.target, self.state.running.is_settling) = (None, true);
         let (Ok(text) | Err(text)) = &outcome;
         let text = text.clone();
         // The line fades; the log keeps it.

@@ -59,7 +59,7 @@ impl App {
             Message::Key(event) => return self.key(&event),
             Message::Mouse(event) => return self.mouse(&event),
             Message::Resize(width, height) => state.terminal.size = Size::new(width, height),
-            Message::Data(snapshot) => self.receive(snapshot),
+            Message::Data(snapshot) => return self.receive(snapshot),
             Message::Done(text) => state.say(text),
             Message::Failed(text) => state.complain(text),
             Message::Saved(outcome) => self.saved(outcome),

@@ -182,7 +182,7 @@ impl StudyForm {
                     self.choose(line, !is_chosen);
                 }
             }
-            KeyCode::Char('a') => self.choose_section(line),
+            KeyCode::Char('a' | '*') => self.choose_section(line),
             _ => {}
         }
         Outcome::Open

@@ -91,6 +91,8 @@ pub struct Terminal {
 pub struct Running {
     /// Target of the run; `None` where none is in progress.
     pub target: Option<Target>,
+    /// True from the end of a run here until the database was read without running jobs: those were of this run.
+    pub is_settling: bool,
     /// Job of the run that is watched.
     pub watched: Option<JobId>,
     /// Latest shape of that job's garment.

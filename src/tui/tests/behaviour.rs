@@ -129,6 +129,28 @@ fn the_end_of_a_run_is_told_and_kept() {
 }
 
 #[test]
+fn the_end_of_a_run_elsewhere_is_told_once() {
+    let mut ended = fixture::snapshot();
+    let counts = [(Status::Done, 9), (Status::Failed, 3)];
+    ended.studies[0].counts = Status::ALL.map(|status| counts.iter().find(|(of, _)| *of == status).map_or(0, |c| c.1));
+    let mut bench = Bench::example(120, 24);
+    bench.send(Message::Data(Box::new(fixture::snapshot())));
+    assert_eq!(bench.asked(), [], "jobs still run");
+    bench.send(Message::Data(Box::new(ended.clone())));
+    assert_eq!(bench.asked(), [Effect::Notify("men-tops: 9 done, 3 failed".into())]);
+    assert!(bench.status().contains("a run elsewhere has ended: men-tops: 9 done, 3 failed"));
+    bench.send(Message::Data(Box::new(ended.clone())));
+    assert_eq!(bench.asked(), []);
+
+    let mut here = Bench::example(120, 24);
+    here.press("R");
+    here.send(Message::RunEnded(Ok("men-tops: 9 done".into())));
+    here.asked();
+    here.send(Message::Data(Box::new(ended)));
+    assert_eq!(here.asked(), [], "its own end was told already");
+}
+
+#[test]
 fn a_run_of_a_paused_study_says_that_it_waits() {
     let mut data = fixture::snapshot();
     data.studies[0].paused = true;

@@ -11,7 +11,8 @@ use std::time::Instant;
 use crate::messages::message::Message;
 use crate::messages::requests::QueryRequest;
 use crate::widgets::result_table::ResultTable;
-use store::{Interrupter, Store, StudyError, Table, save_query, saved_queries, sql};
+use store::files::kind_of;
+use store::{InOrigin, Interrupter, Origin, Store, StudyError, Table, save_query, saved_queries, sql};
 use wardrobe::catalogue;
 
 /// Most rows of an answer on the screen; a file gets all rows.
@@ -81,15 +82,8 @@ pub fn serve(
                 Message::Answered(start.elapsed().as_millis() as u64, table)
             }
             QueryRequest::Export(text, path) => {
-                let is_parquet = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("parquet"));
-                let rows = store.and_then(|store| {
-                    let rows = if is_parquet {
-                        write_parquet(store, &text, &path, canceller, parquet)
-                    } else {
-                        sql::export_query(store, &text, &path, &canceller.is_on)
-                    };
-                    rows.map_err(|error| said(&error))
-                });
+                let rows = store
+                    .and_then(|store| export(store, &text, &path, canceller, parquet).map_err(|error| said(&error)));
                 Message::Saved(rows.map(|rows| format!("{rows} rows are in {}", path.display())))
             }
         };
@@ -99,14 +93,19 @@ pub fn serve(
     }
 }
 
-/// Writes all rows of a query into a new Parquet file, which needs them all at once. Returns their number.
-fn write_parquet(
+/// Writes all rows of a query into a new file, as its ending says. Returns their number.
+fn export(
     store: &Store,
     text: &str,
     path: &Path,
     canceller: &Canceller,
     parquet: fn(&Table) -> Vec<u8>,
 ) -> Result<usize, StudyError> {
+    let is_parquet = kind_of(path, &[("csv", false), ("json", false), ("parquet", true)]).origin(Origin::Sql)?;
+    if !is_parquet {
+        return sql::export_query(store, text, path, &canceller.is_on);
+    }
+    // A Parquet file needs all rows at once.
     let table = sql::answer(store, text, usize::MAX, &canceller.is_on)?.table;
     let mut file = File::create_new(path).map_err(StudyError::io(path))?;
     file.write_all(&parquet(&table)).map_err(StudyError::io(path))?;
@@ -157,12 +156,20 @@ mod tests {
     fn a_file_is_written_once_and_by_its_ending() {
         let folder = tempfile::tempdir().expect("a folder");
         let store = Store::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
-        let path = folder.path().join("rows.parquet");
-        let rows = |table: &Table| table.rows.len().to_string().into_bytes();
-        let write = || write_parquet(&store, "SELECT 1 UNION SELECT 2", &path, &Canceller::default(), rows);
-        assert_eq!(write().expect("written"), 2);
-        assert_eq!(std::fs::read(&path).expect("there"), b"2");
-        assert!(write().is_err(), "it is there already");
+        let write = |name: &str| {
+            let rows = |table: &Table| table.rows.len().to_string().into_bytes();
+            let path = folder.path().join(name);
+            export(&store, "SELECT 1 AS n UNION SELECT 2", &path, &Canceller::default(), rows)
+        };
+        let check = |name: &str, expect: &str| {
+            assert_eq!(write(name).expect("written"), 2, "{name}");
+            assert_eq!(std::fs::read_to_string(folder.path().join(name)).expect("there"), expect, "{name}");
+        };
+        check("rows.parquet", "2");
+        check("rows.csv", "n\n1\n2\n");
+        assert!(write("rows.parquet").is_err(), "it is there already");
+        let told = write("rows.txt").expect_err("no such format").to_string();
+        assert!(told.contains("accepted: X.csv, X.json or X.parquet"), "{told}");
     }
 
     #[test]
