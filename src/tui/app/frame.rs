@@ -7,6 +7,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Clear, Paragraph};
 
 use crate::app::App;
+use crate::keys::action::Action;
 use crate::keys::binding::Binding;
 use crate::keys::screen::Screen;
 use crate::overlays::Overlay;
@@ -153,6 +154,9 @@ fn status_line(app: &App, width: u16) -> Line<'static> {
     }
     // Hints come in the order of the table, the most important first; those for help and palette must always be shown.
     let hinted = state.setup.bindings.iter().filter(|b| !b.hint.is_empty() && b.is_on(keys_of(app)));
+    // In the catalogue rows are seldom selected together, and `?` tells how.
+    let is_catalogue = matches!(keys_of(app), Screen::Subjects | Screen::Fabrics);
+    let hinted = hinted.filter(|b| b.action != Action::Mark || !is_catalogue);
     let is_start = is_start_shown(app);
     let hinted = hinted.filter(|b| !is_start || matches!(b.name, "open" | "run" | "new-study" | "help" | "palette"));
     let (last, first): (Vec<&Binding>, Vec<&Binding>) = hinted.partition(|b| matches!(b.name, "help" | "palette"));
