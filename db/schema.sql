@@ -626,83 +626,6 @@ SELECT name AS subject, subject.revision, sex, stature_mm, weight_kg, chest_girt
     hash, subject.revision = entry.revision AS is_latest, is_retired, scan.file AS scan, pose, figure
 FROM subject JOIN catalogue_entry AS entry USING (name) LEFT JOIN scan USING (subject_id) WHERE part = 'subject';
 
-CREATE VIEW v_fit AS
-WITH tops AS (
-    SELECT DISTINCT study_id, garment FROM ease WHERE level IN ('chest', 'bust')
-), aimed AS (
-    SELECT ease.study_id, study.name AS study, ease.garment, ease.size, ease.subject, ease.level, pattern_girth_mm, body_girth_mm,
-        pattern_girth_mm - body_girth_mm AS ease_mm, intended, least_mm, CASE WHEN is_held OR is_firm THEN most_mm END AS most_mm,
-        must_close AND pattern_girth_mm < body_girth_mm AS cannot_close
-    FROM ease JOIN study USING (study_id)
-        LEFT JOIN fit_target AS target ON target.study_id = ease.study_id AND target.garment = ease.garment
-            AND target.level = ease.level
-            AND target.is_top = ((ease.study_id, ease.garment) IN (SELECT study_id, garment FROM tops))
-), off AS (
-    SELECT *, CASE WHEN ease_mm < least_mm THEN ease_mm - least_mm WHEN ease_mm > most_mm THEN ease_mm - most_mm
-        WHEN least_mm IS NOT NULL THEN 0.0 END AS off_mm
-    FROM aimed
-)
-SELECT study, garment, size, subject, level, pattern_girth_mm, body_girth_mm, ease_mm, intended, least_mm, most_mm, off_mm,
-    CASE WHEN cannot_close THEN 'too_small' WHEN off_mm < 0 THEN 'tight' WHEN off_mm > 0 THEN 'loose'
-        WHEN off_mm = 0 THEN 'as_meant' END AS verdict,
-    CASE WHEN off_mm < 0 THEN -2 * off_mm ELSE off_mm END + CASE WHEN cannot_close THEN 60 ELSE 0 END AS weight_mm
-FROM off;
-
-CREATE VIEW v_size AS
-WITH worst AS (
-    SELECT *, row_number() OVER (
-        PARTITION BY study, garment, size, subject ORDER BY weight_mm DESC, level
-    ) AS rank
-    FROM v_fit WHERE weight_mm IS NOT NULL
-), sized AS (
-    SELECT worst.study, worst.garment, worst.subject, worst.size, worst.intended, level AS worst_level, off_mm AS worst_off_mm,
-        weight_mm, verdict, axis.position
-    FROM worst JOIN study ON study.name = worst.study
-        LEFT JOIN study_axis AS axis ON axis.study_id = study.study_id AND axis.axis = 'size' AND axis.name = worst.size
-    WHERE rank = 1
-)
-SELECT study, garment, subject, size, intended, worst_level, worst_off_mm, verdict,
-    row_number() OVER (PARTITION BY study, garment, subject ORDER BY weight_mm, position) AS place
-FROM sized;
-
-CREATE TABLE fit_round (
-    study_id INTEGER NOT NULL REFERENCES study,
-    garment TEXT NOT NULL,
-    subject TEXT NOT NULL,
-    round INTEGER NOT NULL,
-    size TEXT NOT NULL,
-    basis TEXT NOT NULL,
-    made_at INTEGER NOT NULL,
-    signed_by TEXT,
-    signed_at INTEGER,
-    PRIMARY KEY (study_id, garment, subject, round)
-) STRICT, WITHOUT ROWID;
-
-CREATE TABLE fit_comment (
-    comment_id INTEGER PRIMARY KEY,
-    study_id INTEGER NOT NULL REFERENCES study,
-    garment TEXT NOT NULL,
-    subject TEXT NOT NULL,
-    round INTEGER NOT NULL,
-    number INTEGER NOT NULL,
-    side TEXT NOT NULL CHECK (side IN ('front', 'side', 'back')),
-    place TEXT NOT NULL,
-    said TEXT NOT NULL,
-    severity TEXT NOT NULL CHECK (severity IN ('minor', 'major', 'critical')),
-    cause TEXT NOT NULL DEFAULT '',
-    action TEXT NOT NULL DEFAULT '',
-    quantity TEXT,
-    status TEXT NOT NULL DEFAULT 'open' CHECK (status IN ('open', 'met', 'closed')),
-    met_in INTEGER,
-    owner TEXT NOT NULL DEFAULT '',
-    changed_at INTEGER NOT NULL,
-    UNIQUE (study_id, garment, subject, number)
-) STRICT;
-
-CREATE VIEW v_comment AS
-SELECT study.name AS study, garment, subject, fit_round.size, round, number, side, place, said, severity, cause, action,
-    quantity, status, met_in, owner, signed_by, comment_id
-FROM fit_comment JOIN study USING (study_id) JOIN fit_round USING (study_id, garment, subject, round);
 CREATE TABLE spec_sheet (
     style TEXT PRIMARY KEY,
     file TEXT NOT NULL,
@@ -784,3 +707,81 @@ FROM stepped
         AND status IN ('done', 'not_converged')
     LEFT JOIN study USING (study_id)
     LEFT JOIN pom ON pom.job_id = job.job_id AND pom.point = stepped.measure;
+
+CREATE VIEW v_fit AS
+WITH tops AS (
+    SELECT DISTINCT study_id, garment FROM ease WHERE level IN ('chest', 'bust')
+), aimed AS (
+    SELECT ease.study_id, study.name AS study, ease.garment, ease.size, ease.subject, ease.level, pattern_girth_mm, body_girth_mm,
+        pattern_girth_mm - body_girth_mm AS ease_mm, intended, least_mm, CASE WHEN is_held OR is_firm THEN most_mm END AS most_mm,
+        must_close AND pattern_girth_mm < body_girth_mm AS cannot_close
+    FROM ease JOIN study USING (study_id)
+        LEFT JOIN fit_target AS target ON target.study_id = ease.study_id AND target.garment = ease.garment
+            AND target.level = ease.level
+            AND target.is_top = ((ease.study_id, ease.garment) IN (SELECT study_id, garment FROM tops))
+), off AS (
+    SELECT *, CASE WHEN ease_mm < least_mm THEN ease_mm - least_mm WHEN ease_mm > most_mm THEN ease_mm - most_mm
+        WHEN least_mm IS NOT NULL THEN 0.0 END AS off_mm
+    FROM aimed
+)
+SELECT study, garment, size, subject, level, pattern_girth_mm, body_girth_mm, ease_mm, intended, least_mm, most_mm, off_mm,
+    CASE WHEN cannot_close THEN 'too_small' WHEN off_mm < 0 THEN 'tight' WHEN off_mm > 0 THEN 'loose'
+        WHEN off_mm = 0 THEN 'as_meant' END AS verdict,
+    CASE WHEN off_mm < 0 THEN -2 * off_mm ELSE off_mm END + CASE WHEN cannot_close THEN 60 ELSE 0 END AS weight_mm
+FROM off;
+
+CREATE VIEW v_size AS
+WITH worst AS (
+    SELECT *, row_number() OVER (
+        PARTITION BY study, garment, size, subject ORDER BY weight_mm DESC, level
+    ) AS rank
+    FROM v_fit WHERE weight_mm IS NOT NULL
+), sized AS (
+    SELECT worst.study, worst.garment, worst.subject, worst.size, worst.intended, level AS worst_level, off_mm AS worst_off_mm,
+        weight_mm, verdict, axis.position
+    FROM worst JOIN study ON study.name = worst.study
+        LEFT JOIN study_axis AS axis ON axis.study_id = study.study_id AND axis.axis = 'size' AND axis.name = worst.size
+    WHERE rank = 1
+)
+SELECT study, garment, subject, size, intended, worst_level, worst_off_mm, verdict,
+    row_number() OVER (PARTITION BY study, garment, subject ORDER BY weight_mm, position) AS place
+FROM sized;
+
+CREATE TABLE fit_round (
+    study_id INTEGER NOT NULL REFERENCES study,
+    garment TEXT NOT NULL,
+    subject TEXT NOT NULL,
+    round INTEGER NOT NULL,
+    size TEXT NOT NULL,
+    basis TEXT NOT NULL,
+    made_at INTEGER NOT NULL,
+    signed_by TEXT,
+    signed_at INTEGER,
+    PRIMARY KEY (study_id, garment, subject, round)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE fit_comment (
+    comment_id INTEGER PRIMARY KEY,
+    study_id INTEGER NOT NULL REFERENCES study,
+    garment TEXT NOT NULL,
+    subject TEXT NOT NULL,
+    round INTEGER NOT NULL,
+    number INTEGER NOT NULL,
+    side TEXT NOT NULL CHECK (side IN ('front', 'side', 'back')),
+    place TEXT NOT NULL,
+    said TEXT NOT NULL,
+    severity TEXT NOT NULL CHECK (severity IN ('minor', 'major', 'critical')),
+    cause TEXT NOT NULL DEFAULT '',
+    action TEXT NOT NULL DEFAULT '',
+    quantity TEXT,
+    status TEXT NOT NULL DEFAULT 'open' CHECK (status IN ('open', 'met', 'closed')),
+    met_in INTEGER,
+    owner TEXT NOT NULL DEFAULT '',
+    changed_at INTEGER NOT NULL,
+    UNIQUE (study_id, garment, subject, number)
+) STRICT;
+
+CREATE VIEW v_comment AS
+SELECT study.name AS study, garment, subject, fit_round.size, round, number, side, place, said, severity, cause, action,
+    quantity, status, met_in, owner, signed_by, comment_id
+FROM fit_comment JOIN study USING (study_id) JOIN fit_round USING (study_id, garment, subject, round);

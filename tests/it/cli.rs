@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 114] = [
+const COMMANDS: [&str; 120] = [
     "",
     "run",
     "run show",
@@ -24,6 +24,12 @@ const COMMANDS: [&str; 114] = [
     "fit",
     "chance",
     "section",
+    "comment",
+    "comment ls",
+    "comment round",
+    "comment add",
+    "comment set",
+    "comment sign",
     "alter",
     "grade",
     "pattern pom",

@@ -125,6 +125,9 @@ impl<'a> Bench<'a> {
         let mut limits_m: Vec<f64> = self.handles.iter().map(|handle| self.limit_m(*handle)).collect();
         loop {
             let refused = match self.within(&limits_m, goals) {
+                Ok(amounts) if self.missed_m(&amounts)? <= as_it_is_m && goals.is_empty() => {
+                    return self.thrifty(amounts, limits_m);
+                }
                 Ok(amounts) if self.missed_m(&amounts)? <= as_it_is_m => return Ok(amounts),
                 Ok(amounts) => {
                     // Moved so far, the handle makes another garment, in which a level lies elsewhere.
@@ -141,6 +144,30 @@ impl<'a> Bench<'a> {
                 return Err(refused).origin(Origin::Alter);
             };
             limits_m[place] = if limits_m[place] > LEAST_LIMIT_M { TIGHTER * limits_m[place] } else { 0.0 };
+        }
+    }
+
+    /// Leaves out handles without which the levels are met as well at less cost, the one that saves most first. The
+    /// search within a round knows the effect of handles by a step alone.
+    fn thrifty(&self, mut amounts: Amounts, mut limits_m: Vec<f64>) -> Result<Amounts> {
+        let limits: Vec<[f64; 2]> =
+            self.handles.iter().map(|handle| [-self.limit_m(*handle), self.limit_m(*handle)]).collect();
+        let cost = |amounts: &[f64]| fit::alter::cost(&[], &limits, &self.costs, amounts);
+        loop {
+            let most_m = self.missed_m(&amounts)? + from_mm(SLACK_MM);
+            let mut best: Option<(usize, Amounts)> = None;
+            for place in (0..amounts.len()).filter(|place| amounts[*place] != 0.0) {
+                let mut without = limits_m.clone();
+                without[place] = 0.0;
+                let Ok(other) = self.within(&without, &[]) else { continue };
+                let least = cost(best.as_ref().map_or(&amounts, |(_, best)| best));
+                if cost(&other) < least && self.missed_m(&other)? <= most_m {
+                    best = Some((place, other));
+                }
+            }
+            let Some((place, fewer)) = best else { return Ok(amounts) };
+            limits_m[place] = 0.0;
+            amounts = fewer;
         }
     }
 
@@ -189,7 +216,8 @@ impl<'a> Bench<'a> {
             let change = |change: &Sensitivity| change.get(level).copied().filter(counts).unwrap_or(0.0);
             let sensitivity: Vec<f64> = self.changes.iter().map(change).collect();
             let done: f64 = sensitivity.iter().zip(amounts).map(|(s, amount)| s * amount).sum();
-            let band = if is_met { [least, most] } else { [least + inside, most - inside] };
+            let kept = 0.5 * from_mm(SLACK_MM);
+            let band = if is_met { [least - kept, most + kept] } else { [least + inside, most - inside] };
             Some(Goal { value: ease_m - done, sensitivity, band, gives: is_met.then_some(KEPT_M2) })
         };
         Ok(now.iter().filter_map(goal).collect())

@@ -44,8 +44,9 @@ pub use studies::{StudyCommand, StudyPath};
 /// A fit-study workbench: dress bodies in sewing patterns, measure the drape, judge the fit.
 #[derive(Debug, Parser)]
 #[command(name = "toile", version, max_term_width = 110, infer_long_args = true)]
-#[command(after_help = "Without a command the workbench (TUI) starts. Exit codes: 0 done, 2 usage or unusable input, \
-    3 a check failed, 4 a job failed, 130 interrupted.")]
+#[command(
+    after_help = "Without a command: the workbench. Exit codes: 0 done, 2 unusable, 3 check failed, 4 job failed."
+)]
 pub struct Arguments {
     #[command(flatten)]
     pub global: Global,

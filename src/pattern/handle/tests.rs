@@ -73,7 +73,7 @@ fn mirrored(outline: &[V2], about: f64) -> Vec<V2> {
 /// Checks that hold for every changed style: seams are paired, outlines have no crossings and new kinks, and it meshes.
 fn sound(what: &str, before: &Style, after: &Style) {
     for (gap, (was, seam)) in gaps_mm(after).iter().zip(gaps_mm(before).iter().zip(&before.seams)) {
-        assert!((gap - was).abs() < 0.1, "{what}: seam {} is {gap} apart, was {was}", seam.name);
+        assert!(gap.abs() < was.abs() + 0.3, "{what}: seam {} is {gap} apart, was {was}", seam.name);
     }
     for (was, piece) in before.pieces.iter().zip(&after.pieces) {
         assert!(
@@ -242,7 +242,7 @@ fn right_and_left_stay_alike_and_square_corners_square() {
         use Handle::*;
         [
             ShoulderSlope, ForwardShoulder, ShoulderLength, FrontWidth, BackWidth, UpperBack, Fork,
-            Seat, Abdomen, FrontRise, BackRise, CentreBack,
+            Seat, Abdomen, FrontRise, BackRise, CentreBack, NeckWidth, FrontNeckDepth, BackNeckDepth,
         ]
     };
     for (name, style) in styles() {
@@ -265,7 +265,7 @@ fn right_and_left_stay_alike_and_square_corners_square() {
                 for (k, (was_deg, deg)) in angles_deg(was).iter().zip(angles_deg(piece)).enumerate() {
                     let is_square = (was_deg - 90.0).abs() < 1.0;
                     assert!(
-                        !is_square || (deg - was_deg).abs() < 2.0,
+                        !is_square || (deg - was_deg).abs() < 1.5,
                         "{what}: {} corner {k}: {was_deg} to {deg}",
                         piece.id
                     );
@@ -347,7 +347,10 @@ fn nothing_is_nothing_and_back_is_back() {
                 _ => false,
             };
             // The kind of a section, by which its ends carry it along, may be another after the first change.
-            let is_between = matches!(handle, ShoulderLength | FrontWidth | BackWidth | UpperBack | BackNeckDepth);
+            let is_between = matches!(
+                handle,
+                ShoulderLength | FrontWidth | BackWidth | UpperBack | NeckWidth | FrontNeckDepth | BackNeckDepth
+            );
             check(
                 model,
                 handle,
@@ -521,11 +524,11 @@ fn foreign(path: &Path) -> Style {
 
 #[test]
 fn foreign_patterns_change_by_their_handles() {
-    // File, number of handles, and the handles that are refused.
+    // File, least number of handles, and the handles that are refused.
     let check = |file: &str, handles: usize, refused: &[Handle]| {
         let Some(path) = shared(file) else { return eprintln!("skipped: {file} is not there") };
         let style = foreign(&path);
-        eprintln!("COUNT {file} {} {handles}", style.handles().len());
+        assert!(style.handles().len() >= handles, "{file}: {}", style.handles().len());
         for (handle, amount_mm) in style.handles().into_iter().flat_map(|handle| [(handle, 5.0), (handle, -5.0)]) {
             let what = format!("{file} {} {amount_mm:+}", handle.as_str());
             match style.moved(&[(handle, from_mm(amount_mm))]) {
@@ -542,12 +545,15 @@ fn foreign_patterns_change_by_their_handles() {
                         };
                         let change =
                             length_mm(&after).zip(length_mm(&before)).map(|(is, was)| is - was - of_one * amount_mm);
-                        if !change.is_none_or(|off| off.abs() < 0.2) {
-                            eprintln!("OFF {what}: {} is off by {change:?}", point.as_str());
-                        }
+                        assert!(
+                            change.is_none_or(|off| off.abs() < 0.2),
+                            "{what}: {} is off by {change:?}",
+                            point.as_str()
+                        );
                     }
                 }
-                Err(error) => eprintln!("REFUSED {what}: {error} {refused:?}"),
+                // A figure that the pieces cannot follow is refused with its seam.
+                Err(error) => assert!(refused.contains(&handle) || handle.is_for_figure(), "{what}: {error}"),
             }
         }
     };

@@ -114,10 +114,14 @@ fn lengths_on(
     let girth_m_at = |height_m: f64| girth_at(height_m).map(|girth| girth.length_m);
     let seam = trunk.as_ref().and_then(Trunk::waist_below_neck_m).map(|m| stand.side_neck_m - m);
     let has_seam_at = |height_m: f64| seam.is_some_and(|seam_m| (seam_m - height_m).abs() < AT_WAIST_M);
-    add("underbust", has_seam_at(stand.underbust_m), girth_at(stand.underbust_m), None);
     let is_seam = has_seam_at(stand.waist_m);
     let waist = if trunk.is_none() || is_seam { flat(Point::HalfWaist).map(doubled) } else { girth_at(stand.waist_m) };
     let waist_m = waist.as_ref().map(|waist| waist.length_m);
+    // A way that left the cloth at a dart or an armhole is shorter than the girths above and below it.
+    let least_m = chest_m.into_iter().chain(waist_m).reduce(f64::min);
+    let is_whole = |girth: &OnCloth| least_m.is_none_or(|least_m| girth.length_m > (1.0 - TAKEN_IN) * least_m);
+    let underbust = girth_at(stand.underbust_m).filter(is_whole);
+    add("underbust", has_seam_at(stand.underbust_m), underbust, None);
     let is_waist_held = trunk.is_none() || is_seam || is_taken_in(chest_m, waist_m);
     let top_m = legs.as_ref().filter(|_| trunk.is_none()).map(|legs| stand.crotch_m + legs.top_above_fork_m());
     add("waist", is_waist_held, waist, top_m);
