@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 120] = [
+const COMMANDS: [&str; 122] = [
     "",
     "run",
     "run show",
@@ -33,6 +33,8 @@ const COMMANDS: [&str; 120] = [
     "alter",
     "grade",
     "pattern pom",
+    "pattern spec",
+    "style spec",
     "pattern sew",
     "style sew",
     "style sew add",
