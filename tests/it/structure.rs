@@ -24,7 +24,7 @@ const TOUCHING: [&str; 8] = ["store", "spec", "wardrobe", "engine", "results", "
 
 /// Public fields in millimetres below `store`, where all else is in SI units: they are written so, in seam files and in what
 /// `pattern inspect` and `pattern propose` answer.
-const MILLIMETRES: [&str; 10] = [
+const MILLIMETRES: [&str; 18] = [
     "body::model::figured::FigureFound.amount_mm",
     "body::model::figured::FigureFound.sd_mm",
     "pattern::inspect::PieceReport.grain_mm",
@@ -35,6 +35,14 @@ const MILLIMETRES: [&str; 10] = [
     "pattern::seams::SeamEntry.ease_mm",
     "pattern::seams::SeamFile.allowance_mm",
     "pattern::seams::SeamFile.length_tolerance_mm",
+    "pattern::spec_sheet::compared::SpecLine.deviation_mm",
+    "pattern::spec_sheet::compared::SpecLine.flat_mm",
+    "pattern::spec_sheet::compared::SpecLine.flat_step_mm",
+    "pattern::spec_sheet::compared::SpecLine.minus_mm",
+    "pattern::spec_sheet::compared::SpecLine.plus_mm",
+    "pattern::spec_sheet::compared::SpecLine.spec_mm",
+    "pattern::spec_sheet::compared::SpecLine.step_mm",
+    "pattern::spec_sheet::compared::SpecLine.worn_mm",
 ];
 
 fn root() -> &'static Path {
