@@ -777,6 +777,7 @@ CREATE TABLE fit_comment (
     status TEXT NOT NULL DEFAULT 'open' CHECK (status IN ('open', 'met', 'closed')),
     met_in INTEGER,
     owner TEXT NOT NULL DEFAULT '',
+    is_worded INTEGER NOT NULL DEFAULT 0,
     changed_at INTEGER NOT NULL,
     UNIQUE (study_id, garment, subject, number)
 ) STRICT;

@@ -1,5 +1,5 @@
 -- Rounds of fitting of a garment on a subject, and the comments of a fitting. A comment that was made from a measured
--- `quantity` is met in the round that no longer measures it. `basis` tells what a round was measured on.
+-- `quantity` is met in the round that no longer measures it; a later round words it anew unless somebody has (`is_worded`). `basis` tells what a round was measured on.
 
 CREATE TABLE fit_round (
     study_id INTEGER NOT NULL REFERENCES study,
@@ -31,6 +31,7 @@ CREATE TABLE fit_comment (
     status TEXT NOT NULL DEFAULT 'open' CHECK (status IN ('open', 'met', 'closed')),
     met_in INTEGER,
     owner TEXT NOT NULL DEFAULT '',
+    is_worded INTEGER NOT NULL DEFAULT 0,
     changed_at INTEGER NOT NULL,
     UNIQUE (study_id, garment, subject, number)
 ) STRICT;

@@ -136,6 +136,7 @@ fn off(goal: &Goal, value: f64) -> f64 {
 
 /// Search over the sets of handles.
 struct Search<'a> {
+    /// Goals as they are asked for.
     asked: &'a [Goal],
     /// Goals as a set has to meet them: what is out of reach may be spared.
     goals: &'a [Goal],

@@ -178,7 +178,7 @@ fn comment(row: &Row<'_>) -> rusqlite::Result<Comment> {
 }
 
 /// Begins the next round of a fitting in a size, with what was measured. An open comment of an earlier round whose
-/// quantity is measured no more is met; one that is measured again has the new words. Returns the number of the round,
+/// quantity is measured no more is met; one that is measured again has the new words, unless somebody worded it. Returns the number of the round,
 /// `None` where nothing has changed since the last one: `basis` is the same.
 ///
 /// # Errors
@@ -220,7 +220,7 @@ pub fn begin_round(
     for (id, quantity) in &open {
         match again(quantity) {
             Some(remark) => transaction.execute(
-                "UPDATE fit_comment SET said = ?, action = ?, changed_at = ? WHERE comment_id = ?",
+                "UPDATE fit_comment SET said = ?, action = ?, changed_at = ? WHERE comment_id = ? AND NOT is_worded",
                 params![remark.said, remark.action, now_ms(), id],
             )?,
             None => transaction.execute(
@@ -260,7 +260,7 @@ pub fn edit(store: &mut Store, fitting: Fitting<'_>, number: i64, edit: &Edit) -
     let study_id = study_id(&transaction, fitting.study)?;
     let changed = transaction.execute(
         "UPDATE fit_comment SET status = coalesce(?, status), severity = coalesce(?, severity), said = coalesce(?, said),
-            action = coalesce(?, action), owner = coalesce(?, owner), changed_at = ?
+            action = coalesce(?, action), owner = coalesce(?, owner), is_worded = is_worded OR ?, changed_at = ?
         WHERE study_id = ? AND garment = ? AND subject = ? AND number = ?",
         params![
             edit.status.map(State::as_str),
@@ -268,6 +268,7 @@ pub fn edit(store: &mut Store, fitting: Fitting<'_>, number: i64, edit: &Edit) -
             edit.said,
             edit.action,
             edit.owner,
+            edit.said.is_some() || edit.action.is_some(),
             now_ms(),
             study_id,
             fitting.garment,
