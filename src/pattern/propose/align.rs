@@ -63,7 +63,7 @@ pub fn upright(shape: &Shape, is_one: impl Fn(&Template) -> bool) -> Option<Alig
         let hangs = match template.class {
             Class::Body | Class::SidePanel | Class::Leg | Class::Skirt => true,
             Class::Sleeve => template.is_whole,
-            Class::Yoke | Class::Waistband | Class::Cuff | Class::Other => false,
+            Class::Yoke | Class::Waistband | Class::Cuff | Class::Collar | Class::Other => false,
         };
         let is_upright = if hangs && shape.lies() { !quarter_turns.is_multiple_of(2) } else { quarter_turns == 0 };
         if is_upright { 0.0 } else { TURNED }

@@ -154,3 +154,33 @@ fn a_piece_on_the_fold_is_half_unless_it_was_unfolded() {
     let names: Vec<&str> = found.seams.iter().map(|seam| seam.entry.name.as_str()).collect();
     assert!(names.contains(&"skirt_centre_front") && names.contains(&"skirt_side_left"), "{names:?}");
 }
+
+#[test]
+fn a_collar_is_sewn_to_the_neckline_where_the_user_says_so() {
+    let tee = &Model::Tshirt.drafts()[1].pieces;
+    let plain = propose(tee);
+    let style = Style::read(tee, Model::Tshirt.seams(), "seams").expect("a style");
+    let neck = style.measurements.iter().find(|measured| measured.name == "Neck Opening").expect("a neckline");
+    let neck_mm = neck.l2d_m * 1e3;
+    let check = |collar: Piece, is_asked: bool| {
+        let pieces = [&tee[..], &[collar]].concat();
+        let found = propose(&pieces);
+        assert_eq!(found.seams, plain.seams, "left out unless the user says otherwise");
+        let question = found.questions.iter().find(|question| question.text.contains("is it sewn on?"));
+        assert_eq!(question.is_some(), is_asked, "{:?}", found.questions);
+        let Some(question) = question else { return };
+        let sewn = propose_answered(&pieces, &[(question.number, 'b')]).expect("an answer");
+        let seam = sewn.seams.iter().find(|seam| seam.entry.name == "collar").expect("a seam");
+        assert_eq!(seam.entry.b, ["front.neck_left", "back.neck", "front.neck_right"]);
+        assert!((seam.b_mm - neck_mm).abs() < 0.1, "{} {neck_mm}", seam.b_mm);
+        assert!(sewn.notes.iter().all(|note| !note.contains("COLLAR")), "{:?}", sewn.notes);
+        let style = Style::of(&pieces, &sewn.to_drape().expect("sure").seam_file("a"), "a").expect("a style");
+        let mesh = style.mesh(30e-3).expect("a mesh");
+        assert!(mesh.pieces.iter().any(|piece| piece.id == "collar"));
+    };
+    check(strip("COLLAR", neck_mm, 60.0), true);
+    check(strip("COLLAR STAND", 60.0, 1.05 * neck_mm), true);
+    // A rib that is folded in half, a hood.
+    check(strip("COLLAR RIB", 0.8 * neck_mm, 40.0), false);
+    check(strip("HOOD", 300.0, 350.0), false);
+}

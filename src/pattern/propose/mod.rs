@@ -10,6 +10,7 @@ mod ask;
 mod cap;
 mod choose;
 mod circle_skirt;
+mod collar;
 mod cutting;
 mod details;
 mod doubt;
@@ -351,11 +352,13 @@ fn without(pieces: &[Piece], answers: &Answers, dismissed: &BTreeSet<usize>) -> 
     let (details, is_spare) = (details::details(pieces, &named), details::spares(pieces));
     let mut notes: Vec<String> = Vec::new();
     let is_plain = |k: usize| details[k] && !is_spare[k] && !dismissed.contains(&k);
-    notes.extend(left_out(pieces, is_plain, "by their names or their size details that a drape does without"));
-    notes.extend(left_out(pieces, |k| is_spare[k], "their quantity is 0: alternatives that are not cut"));
     let recognised = recognise::recognise(pieces, &named, reading, &mut asker);
     let mut recognised = choose::choose(pieces, recognised, &mut asker);
     lengths::settle(pieces, &mut recognised, &asker);
+    let recognised = collar::sewn(pieces, &named, recognised, is_plain, &mut asker);
+    let is_left = |k: usize| is_plain(k) && recognised.iter().all(|found| found.piece != k);
+    notes.extend(left_out(pieces, is_left, "by their names or their size details that a drape does without"));
+    notes.extend(left_out(pieces, |k| is_spare[k], "their quantity is 0: alternatives that are not cut"));
     // The notches of a sleeve tell for which arm it is drawn, once they are compared with those of the armhole.
     let first = worn_pieces::worn(pieces, &recognised, None, &mut asker.aside());
     let drawn = notched::drawn_sleeve(&first).or_else(|| cap::drawn_sleeve(&recognised, &mut notes));

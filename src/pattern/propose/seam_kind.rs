@@ -47,6 +47,8 @@ pub enum SeamKind {
     CuffEnds(Hand),
     /// Halves of a cuff. The second hand is the end of the front half.
     CuffSide(Hand, Hand),
+    /// A collar to the neckline.
+    Collar,
     /// Front to back of a leg, outside.
     Outseam(Hand),
     /// Front to back of a leg, inside.
@@ -110,6 +112,7 @@ impl fmt::Display for SeamKind {
             Self::CuffEnds(hand) => write!(f, "cuff_{hand}_ends"),
             Self::CuffSide(hand, Hand::Right) => write!(f, "cuff_{hand}_a"),
             Self::CuffSide(hand, Hand::Left) => write!(f, "cuff_{hand}_b"),
+            Self::Collar => f.write_str("collar"),
             Self::Outseam(hand) => write!(f, "outseam_{hand}"),
             Self::Inseam(hand) => write!(f, "inseam_{hand}"),
             Self::Crotch(face) => write!(f, "crotch_{face}"),

@@ -35,7 +35,7 @@ type Joined<Place> = (Class, Label, fn(Place) -> SeamKind);
 
 /// Proposes the seams of a garment.
 pub fn sew(worn: &[Worn], asker: &mut Asker<'_>) -> Vec<ProposedSeam> {
-    let mut tailor = Tailor { worn, seams: Vec::new(), asker };
+    let mut tailor = Tailor::new(worn, asker);
     tailor.darts();
     for hand in Hand::BOTH {
         tailor.princess(hand);
@@ -51,6 +51,7 @@ pub fn sew(worn: &[Worn], asker: &mut Asker<'_>) -> Vec<ProposedSeam> {
     }
     tailor.ring();
     tailor.waistbands();
+    tailor.collar();
     tailor.seams
 }
 
@@ -67,6 +68,7 @@ pub fn open(worn: &[Worn], seams: &[ProposedSeam]) -> Vec<String> {
     edges.filter(|name| !is_sewn(name)).collect()
 }
 
+/// Seams of a garment as they are found.
 pub(super) struct Tailor<'w, 'q, 'a> {
     pub worn: &'w [Worn],
     seams: Vec<ProposedSeam>,
@@ -76,6 +78,13 @@ pub(super) struct Tailor<'w, 'q, 'a> {
 /// Question about a seam between two halves.
 fn centre_question(kind: &SeamKind) -> String {
     format!("{kind}: a seam, a fold, or an opening?")
+}
+
+impl<'w, 'q, 'a> Tailor<'w, 'q, 'a> {
+    /// Tailor of some pieces, with no seam yet.
+    pub fn new(worn: &'w [Worn], asker: &'q mut Asker<'a>) -> Self {
+        Self { worn, seams: Vec::new(), asker }
+    }
 }
 
 impl<'w> Tailor<'w, '_, '_> {

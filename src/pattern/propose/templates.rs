@@ -71,7 +71,7 @@ use Label::{
 };
 
 /// All templates. A half is also tried as its mirror image.
-pub const TEMPLATES: [Template; 26] = [
+pub const TEMPLATES: [Template; 27] = [
     Template {
         class: Class::Body,
         is_whole: true,
@@ -370,6 +370,16 @@ pub const TEMPLATES: [Template; 26] = [
             part(End, 90.0, 0.0, [1.0, 0.5], 0.12),
             part(Top, 180.0, 0.0, [0.5, 1.0], 0.38),
             part(End, 270.0, 0.0, [0.0, 0.5], 0.12),
+        ],
+    },
+    Template {
+        class: Class::Collar,
+        is_whole: true,
+        parts: &[
+            part(Lower, 0.0, 0.0, [0.5, 0.0], 0.43),
+            part(End, 90.0, 0.0, [1.0, 0.5], 0.07),
+            part(Top, 180.0, 0.0, [0.5, 1.0], 0.43),
+            part(End, 270.0, 0.0, [0.0, 0.5], 0.07),
         ],
     },
 ];

@@ -220,6 +220,7 @@ pub fn id_of(candidate: &Recognised, hand: Option<Hand>) -> String {
         Class::Yoke => Some("yoke"),
         Class::Waistband => Some("waistband"),
         Class::Cuff => Some("cuff"),
+        Class::Collar => Some("collar"),
     };
     let parts = [class, candidate.face.map(Face::as_str), hand.map(Hand::as_str)];
     parts.into_iter().flatten().collect::<Vec<_>>().join("_")

@@ -27,6 +27,8 @@ pub enum Class {
     Waistband,
     /// Band at the end of a sleeve.
     Cuff,
+    /// Collar or stand that is sewn to the neckline.
+    Collar,
     /// Anything else, in no proposed seam.
     Other,
 }
@@ -42,6 +44,7 @@ impl Class {
             Self::Yoke => "yoke",
             Self::Waistband => "waistband",
             Self::Cuff => "cuff",
+            Self::Collar => "collar",
             Self::Other => "part",
         }
     }

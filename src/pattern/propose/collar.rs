@@ -1,0 +1,163 @@
+//! Collars and stands: a band with one long edge about as long as the neckline. Left out unless the user says that it is
+//! sewn. It then stands up as it is cut, for no file says along which line a collar is turned down.
+
+use std::ops::RangeInclusive;
+
+use super::align::{Alignment, LEAST_FIT, Labelled, upright};
+use super::ask::Asker;
+use super::recognised::{Recognised, length_m};
+use super::sew::{Chain, EASED_DOUBT, Tailor};
+use super::shape::Shape;
+use super::worn_pieces::{self, Worn};
+use super::{Class, Face, Hand, Label, PartName, SeamKind};
+use crate::piece::Piece;
+use crate::style::named::reference;
+use crate::trade::Named;
+use geom::units::mm;
+
+/// Length of a collar over that of the neckline. A collar is held in by a tenth at most, and a stand laps over at the front
+/// by twice 20 mm. A rib that is stretched further is folded in half, and would stand twice too high.
+const FITS: RangeInclusive<f64> = 0.9..=1.12;
+/// Distance from the middle of a front neckline within which a corner is the centre front, m.
+const AT_CENTRE_M: f64 = 5e-3;
+
+/// Adds the collar that fits the neckline best, if the user says that it is sewn. `may_be` is true for each piece that is
+/// worn as nothing else.
+pub fn sewn(
+    pieces: &[Piece],
+    named: &[Named],
+    recognised: Vec<Recognised>,
+    may_be: impl Fn(usize) -> bool,
+    asker: &mut Asker<'_>,
+) -> Vec<Recognised> {
+    let opened: Vec<Recognised> = recognised.iter().map(|candidate| with_centre_front(candidate.clone())).collect();
+    let worn = worn_pieces::worn(pieces, &opened, None, &mut asker.aside());
+    let chain = Tailor::new(&worn, &mut asker.aside()).neckline();
+    let neck_m: f64 = chain.iter().map(|along| along.edge.length).sum();
+    let is_collar =
+        |k: &usize| named[*k].class == Some(Class::Other) && named[*k].part == Some(PartName::Neck) && may_be(*k);
+    let share = |collar: &Recognised| length_m(collar, Label::Lower) / neck_m;
+    let bands = (0..pieces.len()).filter(is_collar).filter_map(|piece| band(pieces, piece, neck_m));
+    let fitting = bands.filter(|collar| FITS.contains(&share(collar)));
+    let best = fitting.min_by(|a, b| share(a).ln().abs().total_cmp(&share(b).ln().abs()));
+    let Some(collar) = best else { return recognised };
+    let text = format!(
+        "`{}`, {:.0} mm for a neckline of {:.0} mm: is it sewn on?",
+        reference(pieces, collar.piece),
+        mm(length_m(&collar, Label::Lower)),
+        mm(neck_m)
+    );
+    match asker.ask(text, ["no: it is left out", "yes, standing up as it is cut"], Some(0)) {
+        Some(1) => opened.into_iter().chain([collar]).collect(),
+        _ => recognised,
+    }
+}
+
+/// A piece as a band whose lower edge is the one that is nearer to the length of the neckline. `None` for another shape.
+fn band(pieces: &[Piece], piece: usize, neck_m: f64) -> Option<Recognised> {
+    let shape = Shape::of(&pieces[piece])?;
+    let alignment = upright(&shape, |template| template.class == Class::Collar)?;
+    let confidence = Some(alignment.score).filter(|score| *score >= LEAST_FIT)?;
+    let read = Recognised {
+        piece,
+        class: Class::Collar,
+        face: None,
+        hand: None,
+        shape,
+        alignment,
+        confidence,
+        rival: None,
+        is_pair: false,
+        gore: None,
+        part: Some(PartName::Neck),
+    };
+    let away = |label: Label| (length_m(&read, label) - neck_m).abs();
+    let is_upside_down = away(Label::Top) < away(Label::Lower);
+    Some(if is_upside_down { Recognised { alignment: turned(read.alignment), ..read } } else { read })
+}
+
+/// A band turned upside down.
+fn turned(alignment: Alignment) -> Alignment {
+    let turn = |part: Labelled| Labelled {
+        label: match part.label {
+            Label::Lower => Label::Top,
+            Label::Top => Label::Lower,
+            other => other,
+        },
+        is_right: !part.is_right,
+        ..part
+    };
+    let parts = alignment.parts.into_iter().map(turn).collect();
+    Alignment { parts, quarter_turns: (alignment.quarter_turns + 2) % 4, ..alignment }
+}
+
+/// A whole front with its neckline in two halves, which meet at centre front. Any other piece as it is.
+fn with_centre_front(mut candidate: Recognised) -> Recognised {
+    let is_front =
+        candidate.class == Class::Body && candidate.face == Some(Face::Front) && candidate.alignment.template.is_whole;
+    let necks = candidate.alignment.parts.iter().filter(|part| part.label == Label::Neck).count();
+    let place = candidate.alignment.parts.iter().position(|part| part.label == Label::Neck);
+    let Some(place) = place.filter(|_| is_front && necks == 1) else { return candidate };
+    let neck = candidate.alignment.parts[place];
+    let Some((shape, corner)) = with_corner_in_the_middle(&candidate.shape, neck) else { return candidate };
+    let is_added = shape.len() > candidate.shape.len();
+    let n = shape.len();
+    for part in &mut candidate.alignment.parts {
+        part.from += usize::from(is_added && part.from >= corner);
+    }
+    let from = candidate.alignment.parts[place].from;
+    let span = neck.span + usize::from(is_added);
+    let first = (corner + n - from) % n;
+    let half = |from, span, is_right| Labelled { from, span, is_right, ..neck };
+    let halves = [half(from, first, true), half(corner % n, span - first, false)];
+    candidate.alignment.parts.splice(place..=place, halves);
+    candidate.shape = shape;
+    candidate
+}
+
+/// Shape with a corner in the middle of a part, and its index: that of a V-neck, or else a new one.
+fn with_corner_in_the_middle(shape: &Shape, part: Labelled) -> Option<(Shape, usize)> {
+    let lengths = |count: usize| -> f64 { (0..count).map(|k| shape.length((part.from + k) % shape.len())).sum() };
+    let middle_m = 0.5 * lengths(part.span);
+    let known = (1..part.span).find(|&count| (lengths(count) - middle_m).abs() < AT_CENTRE_M);
+    match known {
+        Some(count) => Some((shape.clone(), (part.from + count) % shape.len())),
+        None => shape.with_middle(part.from, part.span),
+    }
+}
+
+impl<'w> Tailor<'w, '_, '_> {
+    /// Edges of the neckline clockwise, from centre front over the wearer's left, the back and the right. Empty unless
+    /// it has both halves of a front.
+    pub fn neckline(&self) -> Chain<'w> {
+        let of_front = |hand: Hand| {
+            let front = self.find(Class::Body, Some(Face::Front), hand);
+            front.map_or_else(Vec::new, |front| front.chain_back(Label::Neck, Some(hand)))
+        };
+        let of_sleeve = |hand: Hand| {
+            let sleeve = self.find(Class::Sleeve, None, hand);
+            sleeve.map_or_else(Vec::new, |sleeve| sleeve.chain_back(Label::Neck, None))
+        };
+        let of_back = |class: Class| -> Chain<'w> {
+            let row: Vec<&'w Worn> = self.row(class, Face::Back);
+            row.iter().flat_map(|worn| worn.chain_back(Label::Neck, None)).collect()
+        };
+        let [left, right] = [Hand::Left, Hand::Right].map(of_front);
+        let is_open =
+            |half: &Chain<'_>| half.iter().all(|along| along.piece.hand.is_some() || along.edge.hand.is_some());
+        if left.is_empty() || right.is_empty() || !is_open(&left) || !is_open(&right) {
+            return Vec::new();
+        }
+        let back = Some(of_back(Class::Yoke)).filter(|yokes| !yokes.is_empty());
+        let back = back.unwrap_or_else(|| of_back(Class::Body));
+        [left, of_sleeve(Hand::Left), back, of_sleeve(Hand::Right), right].concat()
+    }
+
+    /// Joins a collar to the neckline.
+    pub fn collar(&mut self) {
+        let Some(collar) = self.worn.iter().find(|worn| worn.class == Class::Collar) else { return };
+        let neckline = self.neckline();
+        let pieces: Vec<&Worn> = neckline.iter().map(|along| along.piece).chain([collar]).collect();
+        self.add(SeamKind::Collar, collar.chain(Label::Lower, None), neckline, &pieces, EASED_DOUBT);
+    }
+}
