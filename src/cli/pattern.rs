@@ -120,7 +120,8 @@ fn style(files: &StyleFiles) -> Result<patterns::Style, CliError> {
 /// unusable input.
 fn inspect(context: &Context, reports: &[FileReport], table: fn(&[FileReport]) -> Table) -> Outcome {
     if context.json {
-        output::json(&reports)?;
+        let written: Vec<FileReport> = reports.iter().cloned().map(FileReport::as_written).collect();
+        output::json(&written)?;
     } else {
         context.print(&table(reports))?;
     }

@@ -35,12 +35,16 @@ pub struct FileReport {
     pub unused: BTreeMap<String, usize>,
     /// Reason why the file cannot be read.
     pub error: Option<String>,
+    /// Names of blocks byte for byte as in the file ([`PatternFile::as_written`]), by the names in its code page, where
+    /// the two differ.
+    #[serde(skip)]
+    pub written: BTreeMap<String, String>,
 }
 
 /// One piece as the file stores it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PieceReport {
-    /// Name of the block, byte for byte as in the file ([`PatternFile::as_written`]).
+    /// Name of the block in the file's code page.
     pub block: String,
     /// Name of the piece in the file's code page, or the name of the block if the file gives none.
     pub name: String,
@@ -91,19 +95,12 @@ impl From<&PatternFile> for FileReport {
                 UnitSource::Assumed => format!("none, assumed {unit}"),
             },
             mm_per_unit: Some(file.unit.mm_per_unit()),
-            pieces: file
-                .pieces
-                .iter()
-                .map(|piece| PieceReport { block: file.as_written(&piece.block), ..PieceReport::from(piece) })
-                .collect(),
-            refused: file
-                .refused
-                .iter()
-                .map(|refused| Refused { block: file.as_written(&refused.block), ..refused.clone() })
-                .collect(),
+            pieces: file.pieces.iter().map(PieceReport::from).collect(),
+            refused: file.refused.clone(),
             warnings: file.warnings.clone(),
             unused: file.unused.clone(),
             error: None,
+            written: written_names(file),
         }
     }
 }
@@ -122,8 +119,27 @@ impl FileReport {
             warnings: Vec::new(),
             unused: BTreeMap::new(),
             error: Some(error),
+            written: BTreeMap::new(),
         }
     }
+
+    /// Report for other programs: names of blocks byte for byte as in the file, whatever the code page of its reader.
+    #[must_use]
+    pub fn as_written(mut self) -> Self {
+        let blocks = self.pieces.iter_mut().map(|piece| &mut piece.block);
+        for block in blocks.chain(self.refused.iter_mut().map(|refused| &mut refused.block)) {
+            if let Some(written) = self.written.get(block) {
+                written.clone_into(block);
+            }
+        }
+        self
+    }
+}
+
+/// Names of the blocks of a file as they are written, where that is not how they read.
+fn written_names(file: &PatternFile) -> BTreeMap<String, String> {
+    let blocks = file.pieces.iter().map(|piece| &piece.block).chain(file.refused.iter().map(|refused| &refused.block));
+    blocks.map(|block| (block.clone(), file.as_written(block))).filter(|(read, written)| read != written).collect()
 }
 
 impl From<&Piece> for PieceReport {

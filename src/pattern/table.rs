@@ -21,6 +21,12 @@ pub struct Row {
     pub cells: Vec<String>,
 }
 
+/// Bytes of a text without the byte order mark of UTF-8 that some editors put before it.
+#[must_use]
+pub fn unmarked(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
+}
+
 /// Decodes a file as UTF-8, without a byte order mark.
 ///
 /// # Errors

@@ -73,6 +73,12 @@ impl<T> Field<T> {
         (self.set)(entry, value);
     }
 
+    /// Least and greatest accepted number.
+    #[must_use]
+    pub fn accepted(&self) -> [f64; 2] {
+        [*self.range.start(), *self.range.end()]
+    }
+
     /// Returns a number if it is within the accepted range.
     ///
     /// # Errors

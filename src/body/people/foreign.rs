@@ -40,6 +40,12 @@ pub fn read_foreign(bytes: &[u8], sex: Option<Sex>) -> Result<Measurements, Body
         names.iter().find_map(|name| value(name)).map(|value| value * unit)
     };
     let stature = value_of(Dimension::Stature).ok_or_else(|| refused("no height".to_owned(), "`height` above 0"))?;
+    let [least, most] = Dimension::Stature.range();
+    if !(least..=most).contains(&stature) {
+        let [given, unit] = [stature / told.metres, told.metres * 1e3];
+        let found = format!("`height` {given}, in units of {unit} mm as such files have");
+        return Err(refused(found, &format!("{} to {} mm", least * 1e3, most * 1e3)));
+    }
     let sex = sex.or(told.sex).ok_or_else(|| refused("no sex".to_owned(), "--sex m or --sex f"))?;
     let others = NAMES.iter().filter_map(|&(dimension, _)| Some((dimension, value_of(dimension)?)));
     Ok(others.fold(Measurements::of(sex, stature), |all, (dimension, value)| all.with(dimension, value)))
@@ -161,6 +167,7 @@ mod tests {
         };
         check("body:\n  height: 170\n", "--sex");
         check("body:\n  waist: 80\n", "no height");
+        check("height: 1650\n", "found `height` 1650, in units of 10 mm as such files have; accepted: 1300 to 2200 mm");
         check("hello", "SeamlyMe (.smis)");
         check("<vit><unit>ell</unit></vit>", "unit `ell`");
         check("<vit><unit>", "accepted: a file of SeamlyMe");

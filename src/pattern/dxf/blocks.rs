@@ -284,6 +284,17 @@ impl Drawn {
         Ok(outline)
     }
 
+    /// Layers that are not read, the fullest first, with their numbers of entities. `None` without any.
+    pub fn layers_beside(&self) -> Option<String> {
+        /// Greatest number of layers that are listed.
+        const LISTED: usize = 6;
+        let mut layers: Vec<(&String, &usize)> = self.unused.iter().collect();
+        layers.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
+        let told: Vec<String> =
+            layers.iter().take(LISTED).map(|(layer, count)| format!("{count} on layer `{layer}`")).collect();
+        (!told.is_empty()).then(|| told.join(", "))
+    }
+
     /// Makes the piece of the block, and adds remarks for the user to `remarks`.
     ///
     /// # Errors

@@ -42,6 +42,8 @@ use super::{scale, size_order};
 
 /// Greatest distance of a copy from what it draws again, m: the rounding of files.
 const SHADOW_M: f64 = 0.1e-3;
+/// Beginning of the reason why a block without an outline is refused.
+const NO_OUTLINE: &str = "no outline";
 /// Name in place of that of a block, for an outline that is drawn outside all blocks.
 pub const NO_BLOCK: &str = "(no block)";
 
@@ -384,13 +386,19 @@ impl PatternFile {
     }
 
     fn add(&mut self, block: &str, line: Option<usize>, drawn: Drawn) {
-        let size = drawn.size();
+        let (size, others) = (drawn.size(), drawn.layers_beside());
         match drawn.into_piece(block, &mut self.warnings) {
             Ok(mut piece) => {
                 piece.beside.line = line;
                 self.pieces.push(piece);
             }
-            Err(reason) => self.refused.push(Refused { block: block.to_owned(), line, size, reason }),
+            Err(reason) => {
+                let reason = match others.filter(|_| reason.starts_with(NO_OUTLINE)) {
+                    Some(others) => reason.replacen("; accepted", &format!("; there is {others}; accepted"), 1),
+                    None => reason,
+                };
+                self.refused.push(Refused { block: block.to_owned(), line, size, reason });
+            }
         }
     }
 

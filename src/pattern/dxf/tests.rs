@@ -33,7 +33,7 @@ fn check_folder(folder: &str, allowed_refusals: usize) {
         let (full, unit) = if plain.exists() { (plain, Some(Unit::Cm)) } else { (path.join(&name), None) };
         let bytes = std::fs::read(full).expect("the file is there");
         let file = read(&bytes, &name, unit).unwrap_or_else(|error| panic!("{error}"));
-        let mut pieces = FileReport::from(&file).pieces;
+        let mut pieces = FileReport::from(&file).as_written().pieces;
         refused += file.refused.len();
         for row in rows {
             blocks += 1;

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::dxf::{CodePage, PatternFile, Unit, UnitSource};
 use super::piece::{Beside, GradePoint, Notch, Piece};
 use super::style::corners::corner_vertices;
+use super::table::unmarked;
 use geom::V2;
 use geom::polyline::{self_crossing, signed_area};
 use geom::units::{from_mm, mm};
@@ -312,7 +313,7 @@ pub fn is_features(json: &[u8]) -> bool {
     struct Head {
         format: String,
     }
-    serde_json::from_slice::<Head>(json).is_ok_and(|head| head.format == FORMAT)
+    serde_json::from_slice::<Head>(unmarked(json)).is_ok_and(|head| head.format == FORMAT)
 }
 
 /// Reads features of pieces as a pattern. `file` is its name for messages.
@@ -327,7 +328,7 @@ pub fn read(bytes: &[u8], file: &str) -> Result<PatternFile, FeaturesError> {
         found,
         accepted: accepted.to_owned(),
     };
-    let features: Features = serde_json::from_slice(bytes)
+    let features: Features = serde_json::from_slice(unmarked(bytes))
         .map_err(|error| fail("the file", error.to_string(), "JSON of pattern features"))?;
     if (features.format.as_str(), features.version, features.unit.as_str()) != (FORMAT, VERSION, "mm") {
         let found = format!("format `{}`, version {}, unit `{}`", features.format, features.version, features.unit);

@@ -23,6 +23,7 @@ use super::inspect::{FileReport, PieceReport};
 use super::piece::Piece;
 use super::propose::{roles, said};
 use super::style::{Edge, EdgeRef, Seam, Style, StylePiece};
+use super::table::unmarked;
 use geom::polyline::{Polyline, self_crossing, signed_area};
 use geom::units::mm;
 use geom::{V2, V3};
@@ -81,7 +82,7 @@ pub struct Stitch {
 /// curve is impossible, an outline crosses itself, or an edge is sewn twice.
 pub fn read(bytes: &[u8], file: &str) -> Result<Specification, GarmentCodeError> {
     let reader = Reader { file };
-    let document: Document = serde_json::from_slice(bytes).map_err(|error| {
+    let document: Document = serde_json::from_slice(unmarked(bytes)).map_err(|error| {
         reader.error(
             "the file",
             error.to_string(),
@@ -353,6 +354,7 @@ impl From<&Specification> for FileReport {
             warnings: Vec::new(),
             unused: Default::default(),
             error: None,
+            written: Default::default(),
         }
     }
 }

@@ -14,6 +14,7 @@
 //! A rule has one pair of x and y for each size, relative to the sample size, whose pair is zero. It may span several
 //! lines.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -73,6 +74,8 @@ pub fn read(bytes: &[u8], file: &str) -> Result<GradeTable, GradeError> {
         return Err(reader.error(Some(1), "a binary file".to_owned(), "a text file with RULE: DELTA"));
     }
     let text = String::from_utf8_lossy(bytes);
+    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+    let text = if text.contains('\n') { Cow::from(text) } else { Cow::from(text.replace('\r', "\n")) };
     let mut head = Head::default();
     let mut rules: BTreeMap<u32, Rule> = BTreeMap::new();
     let mut open = Open::Head;

@@ -91,6 +91,11 @@ fn damaged_tables_are_refused_with_line_and_finding() {
     check("-10.00", "NaN", Some(11), "`NaN`");
     check("-10.00", "-1e9", Some(10), "a step of");
     check("0.00,    0.00", "1.00,    0.00", Some(10), "moves the sample size");
+    // Editors put a byte order mark before a text, old ones end lines with CR alone.
+    let marked = ["\u{feff}", TABLE].concat();
+    let plain = read(TABLE.as_bytes(), "a.rul").expect("it reads");
+    assert_eq!(read(marked.as_bytes(), "a.rul").expect("it reads"), plain);
+    assert_eq!(read(TABLE.replace("\r\n", "\n").replace('\n', "\r").as_bytes(), "a.rul").expect("it reads"), plain);
     let none = read(b"\x89PNG\x00", "a.rul").expect_err("no table");
     assert!(none.found.contains("binary"), "{none}");
     assert!(read(b"", "a.rul").expect_err("empty").found.contains("no rule"));

@@ -135,7 +135,7 @@ impl StyleForm {
     pub fn refused(&mut self, problem: String) {
         if problem.contains("no unit") || problem.contains("say the unit") {
             self.at = UNIT;
-        } else if problem.contains("is no name of a size") {
+        } else if problem.contains("; say SIZE=") {
             self.at = SIZE;
         }
         let is_nest = self.size().is_empty() && problem.matches("size ").count() > 1;

@@ -213,11 +213,23 @@ fn refused(part: Part, name: &str, problems: Vec<String>) -> StudyError {
 
 /// Checks the name of an entry.
 fn check_name(name: &str) -> std::result::Result<(), String> {
-    let is_odd = |letter: char| letter.is_control() || letter == '/';
-    if !name.is_empty() && name.trim() == name && name.chars().count() <= 64 && !name.chars().any(is_odd) {
+    if is_line(name) && !name.contains('/') {
         return Ok(());
     }
     Err("its name; accepted: 1 to 64 characters, no `/`, no space at either end".to_owned())
+}
+
+/// Checks the name of a size, which may be double (`XS/S`, `34 1/2`): what follows the first `/` of `STYLE/SIZE`.
+fn check_size_name(name: &str) -> std::result::Result<(), String> {
+    if is_line(name) {
+        return Ok(());
+    }
+    Err("its name; accepted: 1 to 64 characters, no space at either end".to_owned())
+}
+
+/// True for up to 64 characters in a line, without space at either end.
+fn is_line(name: &str) -> bool {
+    !name.is_empty() && name.trim() == name && name.chars().count() <= 64 && !name.chars().any(char::is_control)
 }
 
 /// Stores a revision with `store`, if the mode allows it.

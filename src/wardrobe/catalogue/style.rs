@@ -6,7 +6,7 @@ use rusqlite::{OptionalExtension, Row, Transaction};
 
 use crate::catalogue::format::{Format, format_of, text_of, unknown_format};
 use crate::catalogue::revision::{self, By};
-use crate::catalogue::{Mode, Part, Saved, check_name, refused, save};
+use crate::catalogue::{Mode, Part, Saved, check_name, check_size_name, refused, save};
 use crate::seams::workpiece::Workpiece;
 use pattern::{size_order, source};
 use spec::file::{self, KnownSize, Placed, Sewn, SizeFile};
@@ -114,7 +114,7 @@ fn store_style(store: &mut Store, mode: Mode, draft: Draft) -> Result<Vec<Saved>
 pub fn save_size(store: &mut Store, mode: Mode, name: &str, given: &StyleGiven) -> Result<Saved> {
     let refuse = |problem: &str| refused(Part::Size, name, vec![problem.to_owned()]);
     let (style, size) = name.split_once('/').ok_or_else(|| refuse("its name; accepted: STYLE/SIZE"))?;
-    check_name(size).map_err(|problem| refuse(&problem))?;
+    check_size_name(size).map_err(|problem| refuse(&problem))?;
     let sizes = match (given.patterns.as_slice(), &given.unit) {
         ([(_, path)], unit) => {
             let before = sizes_of(store, style)?.into_iter().find(|before| before.size.name == size);
@@ -194,8 +194,8 @@ fn sizes_given(store: &Store, style: &str, given: &StyleGiven) -> Result<Vec<Kno
         };
         for name in names {
             let name = if name.is_empty() { UNNAMED.to_owned() } else { name };
-            check_name(&name).map_err(|_| {
-                let problem = format!("{}: `{name}` is no name of a size; say SIZE={}", pattern.name, path.display());
+            check_size_name(&name).map_err(|problem| {
+                let problem = format!("{}: size `{name}`: {problem}; say SIZE={}", pattern.name, path.display());
                 refused(Part::Style, style, vec![problem])
             })?;
             sizes.push(KnownSize { size: SizeFile { name, pattern: pattern.clone() }, unit: unit.clone() });

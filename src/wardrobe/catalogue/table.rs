@@ -6,6 +6,7 @@ use std::path::Path;
 use crate::catalogue::format::text_of;
 use crate::catalogue::{Part, check_name};
 use geom::units::significant;
+use pattern::spec_sheet::number;
 use pattern::table::{self, Row};
 use spec::entry::{Entry, filled, keys};
 use spec::file::Placed;
@@ -58,8 +59,10 @@ pub(super) fn read<T: Entry>(path: &Path, part: Part, bytes: &[u8]) -> Result<Re
     Ok(Read { entries, problems })
 }
 
-/// A column: the key of its heading, and the factor that converts its numbers to the unit of the key.
+/// A column: its heading as a key, the key that its values are stored under, and the factor that converts its numbers to
+/// the unit of that key.
 struct Column {
+    heading: String,
     key: String,
     factor: f64,
 }
@@ -81,7 +84,7 @@ impl Column {
     /// Reads a heading: a key, or a key in words or in another unit, such as `Chest girth (cm)` or `chest_girth_cm`.
     fn read<T: Entry>(part: Part, heading: &str) -> Self {
         let accepted = keys::<T>();
-        let unconverted = |key: &str| Self { key: key.to_owned(), factor: 1.0 };
+        let unconverted = |key: &str| Self { heading: key.to_owned(), key: key.to_owned(), factor: 1.0 };
         if accepted.contains(&heading) || is_name(part, heading) {
             return unconverted(heading);
         }
@@ -94,17 +97,34 @@ impl Column {
         let found = words.split_last().and_then(|(last, rest)| {
             let (_, unit, factor) = UNITS.iter().find(|(name, ..)| name == last)?;
             let key = format!("{}_{unit}", rest.join("_"));
-            accepted.contains(&key.as_str()).then_some(Self { key, factor: *factor })
+            accepted.contains(&key.as_str()).then_some(Self { heading: plain.clone(), key, factor: *factor })
         });
         found.unwrap_or_else(|| unconverted(heading))
     }
 
-    /// Value of a cell, in the unit of the key; a text that is no number stays as it is.
-    fn value(&self, cell: &str) -> String {
-        match decimal(cell) {
-            Some(number) if self.factor != 1.0 => significant(number * self.factor, 9),
-            _ => cell.to_owned(),
+    /// Value of a cell, in the unit of the key.
+    ///
+    /// # Errors
+    /// Of a column in another unit, the text that is no number or the number that is not accepted, in its own unit.
+    fn value<T: Entry>(&self, cell: &str) -> Result<String, String> {
+        let mut fields = T::fields().iter().chain(T::sheets().iter().map(|sheet| &sheet.field));
+        let Some(field) = fields.find(|field| field.key == self.key && self.factor != 1.0) else {
+            return Ok(cell.to_owned());
+        };
+        let [least, most] = field.accepted().map(|end| significant(end / self.factor, 4));
+        let accepted = format!("accepted: {least} to {most}");
+        let number = self
+            .number(cell)
+            .ok_or_else(|| format!("`{}` is `{cell}`, which is no number; {accepted}", self.heading))?;
+        match field.check(number * self.factor) {
+            Ok(converted) => Ok(significant(converted, 9)),
+            Err(_) => Err(format!("`{}` is {number}; {accepted}", self.heading)),
         }
+    }
+
+    /// Number of a cell: a decimal, or a length as inches are taken (`35 1/2`).
+    fn number(&self, cell: &str) -> Option<f64> {
+        decimal(cell).or_else(|| number::length(cell).filter(|read| read.unit.is_none()).map(|read| read.value))
     }
 }
 
@@ -146,11 +166,16 @@ fn row<T: Entry>(
     }
     let cells = || header.iter().copied().zip(record.iter().map(String::as_str));
     let name = cells().find(|(column, _)| is_name(part, column)).map_or("", |(_, cell)| cell);
-    let given: Vec<Given> = cells()
-        .zip(columns)
-        .filter(|((column, cell), _)| !cell.is_empty() && !is_name(part, column) && !IGNORED.contains(column))
-        .map(|((name, cell), column)| (name.to_owned(), column.value(cell)))
-        .collect();
+    let (mut given, mut problems): (Vec<Given>, Vec<String>) = (Vec::new(), Vec::new());
+    for (k, ((key, cell), column)) in cells().zip(columns).enumerate() {
+        if cell.is_empty() || is_name(part, key) || IGNORED.contains(&key) {
+            continue;
+        }
+        match column.value::<T>(cell) {
+            Ok(value) => given.push((key.to_owned(), value)),
+            Err(problem) => problems.push(format!("column {}: {problem}", k + 1)),
+        }
+    }
     let is_given = |(column, _): &&(&str, &str)| cells().any(|(name, cell)| name == *column && !cell.is_empty());
     if let Some((column, accepted)) = BODIES.iter().find(is_given) {
         return Err(vec![format!("{name}: its `{column}` is in no table; {accepted}")]);
@@ -160,6 +185,9 @@ fn row<T: Entry>(
         None => problem,
     };
     check_name(name).map_err(|problem| vec![problem])?;
+    if !problems.is_empty() {
+        return Err(problems);
+    }
     filled(None, name, &given)
         .map(|entry| (name.to_owned(), entry))
         .map_err(|problems| problems.into_iter().map(placed).collect())

@@ -142,6 +142,16 @@ fn tables_are_imported_wholly_or_not_at_all() {
     bench.import(Part::Subject, "people.csv", inches).expect("good");
     let read = |key: &str| bench.one(&format!("SELECT {key} FROM subject WHERE name = 'dora'"));
     assert_eq!((read("stature_mm").as_str(), read("chest_girth_mm").as_str()), ("1655", "914.4"));
+    let fractions = "name,sex,stature_in,chest_girth_in,hip_girth_cm\ndora,f,65,35 1/2,\"97,5\"\n";
+    bench.import(Part::Subject, "people.csv", fractions).expect("good");
+    let read = |key: &str| bench.one(&format!("SELECT {key} FROM subject WHERE name = 'dora'"));
+    assert_eq!((read("chest_girth_mm").as_str(), read("hip_girth_mm").as_str()), ("901.7", "975"));
+    let far = "name,sex,stature_in,chest_girth_in\ncleo,f,99,wide\n";
+    assert_eq!(
+        bench.import(Part::Subject, "people.csv", far).expect_err("bad"),
+        "people.csv:2: column 3: `stature_in` is 99; accepted: 51.18 to 86.61\n\
+         people.csv:2: column 4: `chest_girth_in` is `wide`, which is no number; accepted: 23.62 to 66.93"
+    );
 
     let bad = "name,sex,stature_mm,waist_girth_mm\ncleo,f,1650,700\ndan,x,1.8,\ncleo,f,1660,710\neve,f,1650\n\"f/g\",f,1650,700\n";
     let error = bench.import(Part::Subject, "people.csv", bad).expect_err("bad");
@@ -216,6 +226,10 @@ fn a_style_is_stored_with_sizes_that_can_be_sewn() {
     let pattern = |file: &str| StyleGiven { patterns: vec![(None, folder.join(file))], ..StyleGiven::default() };
     let added = save_size(&mut bench.store, Mode::Add, "tee/L", &pattern("tshirt-l.dxf")).expect("sewable");
     assert_eq!((added.name.as_str(), added.deed), ("tee/L", Deed::Added));
+    // Double sizes have a slash of their own.
+    let added = save_size(&mut bench.store, Mode::Add, "tee/L/XL", &pattern("tshirt-l.dxf")).expect("sewable");
+    assert_eq!(added.name, "tee/L/XL");
+    assert_eq!(bench.one("SELECT count(*) FROM v_sizes WHERE style = 'tee' AND size = 'L/XL'"), "1");
     assert!(save_size(&mut bench.store, Mode::Add, "none/L", &pattern("tshirt-l.dxf")).is_err());
     assert!(save_size(&mut bench.store, Mode::Edit, "tee/XL", &pattern("tshirt-l.dxf")).is_err());
     remove(&mut bench.store, Part::Style, "tee").expect("there");
