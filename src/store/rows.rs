@@ -141,6 +141,17 @@ impl StudyRow {
     }
 }
 
+/// An outfit of a study.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OutfitRow {
+    /// Name of the study.
+    pub study: String,
+    /// Name of the outfit.
+    pub name: String,
+    /// Garment in the study and style in the catalogue of each layer, the inmost first.
+    pub layers: Vec<(String, String)>,
+}
+
 /// A job as lists show it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JobRow {
