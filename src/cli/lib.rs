@@ -107,7 +107,7 @@ pub struct Workbench {
 }
 
 /// Makers of files that need all rows at once, by their endings.
-pub const ENCODERS: [(&str, fn(&store::Table) -> std::io::Result<Vec<u8>>); 2] =
+pub const ENCODERS: [store::Encoder; 2] =
     [("parquet", |table| Ok(parquet::bytes(table))), ("xlsx", |table| xlsx::bytes(&[("rows", table)]))];
 
 /// Returns the command line: every command with its arguments.

@@ -383,6 +383,9 @@ pub struct StageRow {
     pub was_cached: bool,
 }
 
+/// Ending of a file, and the maker of its bytes from rows.
+pub type Encoder = (&'static str, fn(&Table) -> std::io::Result<Vec<u8>>);
+
 /// A table of text and numbers, such as a listing of the catalogue or the rows of a query.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {

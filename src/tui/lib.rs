@@ -37,7 +37,6 @@ use std::sync::mpsc::{RecvError, RecvTimeoutError};
 use std::time::Instant;
 
 pub use app::headless::Headless;
-pub use threads::queries::Encoder;
 pub use widgets::picture::Images;
 
 use app::fading::Fading;
@@ -49,7 +48,7 @@ use keys::file as keys_file;
 use messages::effect::Effect;
 use messages::message::Message;
 use screens::state::{Abilities, Folders};
-use store::StudyError;
+use store::{Encoder, StudyError};
 use terminal::Display;
 use terminal::clipboard;
 use threads::Threads;

@@ -31,9 +31,9 @@ use crate::messages::snapshot::Focus;
 use crate::threads::database::Request;
 use crate::threads::input::Keyboard;
 use crate::threads::previews::Slot;
-use crate::threads::queries::{Canceller, Encoder};
+use crate::threads::queries::Canceller;
 use crate::widgets::picture::{PictureEncoder, PictureRequest};
-use store::{JobId, Live, Store};
+use store::{Encoder, JobId, Live, Store};
 
 /// The threads, and the messages from them.
 pub struct Threads {

@@ -1,7 +1,7 @@
 //! The thread that answers SQL queries, on a connection of its own, so that screens are updated during a long query.
 
 use std::fs::File;
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender};
@@ -12,14 +12,11 @@ use crate::messages::message::Message;
 use crate::messages::requests::QueryRequest;
 use crate::widgets::result_table::ResultTable;
 use store::files::kind_of;
-use store::{InOrigin, Interrupter, Origin, Store, StudyError, Table, save_query, saved_queries, sql};
+use store::{Encoder, InOrigin, Interrupter, Origin, Store, StudyError, save_query, saved_queries, sql};
 use wardrobe::catalogue;
 
 /// Most rows of an answer on the screen; a file gets all rows.
 const MOST_ROWS: usize = 20_000;
-
-/// Ending of a file, and the maker of its bytes from rows.
-pub type Encoder = (&'static str, fn(&Table) -> io::Result<Vec<u8>>);
 
 /// Time before the first number of rows of an export is told, and between two of them.
 const SOON: Duration = Duration::from_secs(1);
