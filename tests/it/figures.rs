@@ -14,7 +14,7 @@ const KEYS: [(&str, &str); 13] = [
     ("4", "the queue"),
     ("<Down>", "the next job"),
     ("<PgDn>", "a page of jobs"),
-    ("G", "the last job"),
+    ("g", "the first job"),
     ("/", "the line of the filter"),
     ("7", "a letter of it, over all jobs"),
     ("<Enter>", "the filter kept"),

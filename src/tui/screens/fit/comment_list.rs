@@ -16,13 +16,15 @@ use crate::widgets::text::{left, right, shortened, wrapped};
 use crate::widgets::theme::Theme;
 use store::comments::{Comment, Severity, State as Status};
 
-/// Columns for number, severity, place, owner and status, and for garment and subject among those of all fittings.
+/// Columns for number, severity, place (short and whole), owner and status, and for garment and subject among those of all fittings.
 const NUMBER: usize = 3;
 const SEVERITY: usize = 9;
-const SEEN: usize = 15;
+const SEEN: [usize; 2] = [15, 24];
 const OWNER: usize = 8;
 const STATUS: usize = 9;
 const FITTING: usize = 16;
+/// Least columns of a list with whole places.
+const ROOMY: usize = 90;
 /// Fewest columns for the words of a comment; what does not fit beside them is left out.
 const WORDS: usize = 18;
 /// Least rows at which the selected comment stands below the list, and the rows for it.
@@ -123,7 +125,7 @@ impl Widths {
             room -= if is_fit { columns } else { 0 };
             if is_fit { columns } else { 0 }
         };
-        let (seen, owner) = (taken(SEEN), taken(OWNER));
+        let (seen, owner) = (taken(SEEN[usize::from(columns >= ROOMY)]), taken(OWNER));
         Self { fitting, seen, owner, words: room }
     }
 
