@@ -80,7 +80,8 @@ impl Purpose {
     pub fn keys(&self) -> &'static str {
         match self {
             Self::Import(_) => " ↵ import all or none  Tab complete  Esc cancel ",
-            Self::Export(_) | Self::Write(_) => " ↵ write  Tab complete  Esc cancel ",
+            Self::Export(_) => " ↵ write  Tab completes, or changes the ending  Esc cancel ",
+            Self::Write(_) => " ↵ write  Tab complete  Esc cancel ",
             Self::SaveQuery(_) => " ↵ save  Esc cancel ",
             Self::RenameQuery(_) => " ↵ rename  Esc cancel ",
             Self::Sign(_) => " ↵ sign  Esc cancel ",
@@ -119,7 +120,11 @@ impl PathPrompt {
             return Outcome::Open;
         }
         if event.code == KeyCode::Tab && !self.is_name() {
+            let before = self.text.len();
             self.offered = Candidates::complete(&mut self.text);
+            if matches!(self.purpose, Purpose::Export(_)) && self.offered.is_empty() && self.text.len() == before {
+                next_ending(&mut self.text);
+            }
             return Outcome::Open;
         }
         self.offered = Candidates::default();
@@ -146,6 +151,17 @@ impl PathPrompt {
             }
             Purpose::Write(files) => Effect::Files(FileTask::Write(path, files.clone())),
         }])
+    }
+}
+
+/// Endings of files for the rows of a query.
+const ENDINGS: [&str; 4] = ["csv", "json", "parquet", "xlsx"];
+
+/// Gives a path with one of these endings the next one.
+fn next_ending(path: &mut String) {
+    let Some((name, ending)) = path.rsplit_once('.') else { return };
+    if let Some(at) = ENDINGS.iter().position(|known| *known == ending) {
+        *path = format!("{name}.{}", ENDINGS[(at + 1) % ENDINGS.len()]);
     }
 }
 
@@ -266,6 +282,22 @@ mod tests {
         check("x", "x", &[]);
         check(".", ".hidden", &[]);
         check("trousers/", "trousers/", &[]);
+    }
+
+    #[test]
+    fn tab_changes_the_ending_of_a_file_for_rows() {
+        let check = |purpose: Purpose, text: &str, expect: &str| {
+            let mut prompt = PathPrompt::new(purpose, text);
+            prompt.key(&KeyEvent::from(KeyCode::Tab));
+            assert_eq!(prompt.text, expect, "{text}");
+        };
+        let rows = || Purpose::Export("SELECT 1".into());
+        check(rows(), "no-such-folder/rows.csv", "no-such-folder/rows.json");
+        check(rows(), "no-such-folder/rows.json", "no-such-folder/rows.parquet");
+        check(rows(), "no-such-folder/rows.xlsx", "no-such-folder/rows.csv");
+        check(rows(), "no-such-folder/rows", "no-such-folder/rows");
+        check(rows(), "no-such-folder/rows.txt", "no-such-folder/rows.txt");
+        check(Purpose::Import(Part::Subject), "no-such-folder/rows.csv", "no-such-folder/rows.csv");
     }
 
     #[test]
