@@ -36,7 +36,7 @@ const FILL: &str = "
         FROM job WHERE status = 'done';
     INSERT INTO chi SELECT job_id, 'drape', n.x + 1, 'Measurement ' || n.x, 'open_length', 0, 0, 500, 500 + n.x
         FROM job JOIN n ON n.x < 100;
-    INSERT INTO ease SELECT 1, 'tshirt', 'size ' || s.x, 'subject ' || p.x, 'chest', 1000 + 4 * s.x, 1000 + p.x
+    INSERT INTO ease SELECT 1, 'tshirt', 'size ' || s.x, 'subject ' || p.x, 'chest', 1000 + 4 * s.x, 1000 + p.x, 1
         FROM n AS s JOIN n AS p ON s.x < 50 AND p.x < 100;
     COMMIT;";
 

@@ -11,7 +11,7 @@ fn main() -> std::process::ExitCode {
             readonly: workbench.readonly,
             no_color: workbench.no_color,
             images,
-            parquet: cli::parquet_bytes,
+            encoders: &cli::ENCODERS,
             quickstart: workbench.quickstart,
         })?;
         Ok(match left {

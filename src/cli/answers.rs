@@ -1,20 +1,27 @@
 //! `toile sql`, `toile audit` and `toile ease`: queries of the database.
 
 use std::io::{IsTerminal, Read};
+use std::sync::atomic::AtomicBool;
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 
 use super::args::{Audit as AuditArguments, AuditCommand, Format, Sql, StudyPath};
 use super::context::{Context, project_folder};
+use super::progress::Rows;
 use super::{CliError, End, Outcome, output, wardrobe};
 use geom::units::mm;
 use results::{Finding, audit};
 use store::{EaseRow, StudyError, Table, Value, read, saved_queries, saved_query, sql};
 
 /// Formats of rows by the endings of files.
-const FORMATS: [(&str, Format); 4] =
-    [("csv", Format::Csv), ("json", Format::Json), ("parquet", Format::Parquet), ("txt", Format::Table)];
+const FORMATS: [(&str, Format); 5] = [
+    ("csv", Format::Csv),
+    ("json", Format::Json),
+    ("parquet", Format::Parquet),
+    ("xlsx", Format::Xlsx),
+    ("txt", Format::Table),
+];
 
 /// Runs `toile sql`. Ctrl-C ends a query.
 pub fn sql(context: &Context, arguments: &Sql) -> Outcome {
@@ -42,19 +49,24 @@ pub fn sql(context: &Context, arguments: &Sql) -> Outcome {
         Some(path) => output::kind_or(path, arguments.format, &FORMATS)?,
         None => arguments.format.unwrap_or(if context.json { Format::Json } else { Format::Table }),
     };
-    if format == Format::Parquet && arguments.output.is_none() && std::io::stdout().is_terminal() {
-        return Err(CliError::Usage("a Parquet file is not for a terminal; give a file with -o".into()));
+    let is_binary = matches!(format, Format::Parquet | Format::Xlsx);
+    if is_binary && arguments.output.is_none() && std::io::stdout().is_terminal() {
+        return Err(CliError::Usage("a binary file is not for a terminal; give a file with -o".into()));
     }
     let store = context.store()?;
     let interrupter = sql::interrupter(&store);
     let mut signals = Signals::new([SIGINT, SIGTERM])?;
     let handle = signals.handle();
+    let mut rows = Rows::new(context.quiet || arguments.output.is_none());
     let answer = std::thread::scope(|scope| {
         scope.spawn(move || signals.forever().for_each(|_| interrupter.interrupt()));
-        let answer = sql::query(&store, &query);
+        let go_on = AtomicBool::new(false);
+        let answer = sql::answer(&store, &query, usize::MAX, &go_on, &mut |read| rows.so_far(read));
         handle.close();
         answer
     })?;
+    let answer = answer.table;
+    rows.end();
     let bytes = output::encoded(&answer, format)?;
     match &arguments.output {
         None => output::bytes(&bytes)?,

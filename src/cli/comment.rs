@@ -37,6 +37,7 @@ pub fn comment(context: &Context, command: &Comment) -> Outcome {
                 said: text.clone(),
                 action: action.clone(),
                 owner: owner.clone(),
+                is_worded: None,
             };
             let of = Fitting { study: &study, garment: &garment, subject: &subject };
             comments::edit(&mut store, of, *number, &edit)?;

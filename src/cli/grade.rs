@@ -146,11 +146,10 @@ fn new(found: &Grading) -> &[SizeShare] {
 
 /// Lengths that grow with a girth, with their steps.
 fn growth(found: &Grading) -> Table {
-    let step =
-        |row: &Grown, group: usize| row.steps_mm.get(group).map_or(Value::Null, |step| text(format!("{step:+.1}")));
+    let step = |row: &Grown, group: usize| row.steps_mm.get(group).map_or(Value::Null, |step| tenths(*step));
     let row = |row: &Grown| {
-        let share = text(format!("{:+.1}", row.of_40_mm));
-        let own = [text(row.handle.replace('_', " ")), text(row.with.replace('_', " ")), share, step(row, 0)];
+        let own =
+            [text(row.handle.replace('_', " ")), text(row.with.replace('_', " ")), tenths(row.of_40_mm), step(row, 0)];
         own.into_iter().chain(found.split.is_some().then(|| step(row, 1))).collect()
     };
     let from = found.split.as_ref().map(|split| format!("step_mm from {split}"));
@@ -164,7 +163,7 @@ fn turns(found: &Grading) -> Table {
     let row = |handle: &&'static str| {
         let amount = |size: &SizeShare| {
             let turn = size.turns.iter().find(|turn| turn.handle == *handle);
-            text(format!("{:+.1}", turn.map_or(0.0, |turn| turn.amount_mm)))
+            tenths(turn.map_or(0.0, |turn| turn.amount_mm))
         };
         std::iter::once(text(handle.replace('_', " "))).chain(new(found).iter().map(amount)).collect()
     };

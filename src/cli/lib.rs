@@ -106,7 +106,9 @@ pub struct Workbench {
     pub quickstart: PathBuf,
 }
 
-pub use parquet::bytes as parquet_bytes;
+/// Makers of files that need all rows at once, by their endings.
+pub const ENCODERS: [store::Encoder; 2] =
+    [("parquet", |table| Ok(parquet::bytes(table))), ("xlsx", |table| xlsx::bytes(&[("rows", table)]))];
 
 /// Returns the command line: every command with its arguments.
 ///

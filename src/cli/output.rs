@@ -93,6 +93,7 @@ pub fn encoded(table: &Table, format: Format) -> io::Result<Vec<u8>> {
         Format::Csv => table.csv().into_bytes(),
         Format::Json => document(&rows(table))?.into_bytes(),
         Format::Parquet => super::parquet::bytes(table),
+        Format::Xlsx => super::xlsx::bytes(&[("rows", table)])?,
     })
 }
 

@@ -2,10 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::IsTerminal;
+use std::time::{Duration, Instant};
 
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
 use super::context::Context;
+use super::output::note;
 use engine::{Ending, notification};
 use fit::Simulator;
 use store::{JobFilter, JobId, JobRow, Result, Status, Store, read};
@@ -13,6 +15,49 @@ use store::{JobFilter, JobId, JobRow, Result, Status, Store, read};
 /// Label of a job, such as `tshirt S ii fem`.
 pub fn label(garment: &str, size: &str, subject: &str, simulator: Simulator) -> String {
     format!("{garment} {size} {subject} {}", simulator.as_str())
+}
+
+/// Numbers of rows on standard error while a long query goes on: in place on a terminal, line by line elsewhere.
+pub struct Rows {
+    is_quiet: bool,
+    /// Line of a terminal, once there is one.
+    line: Option<ProgressBar>,
+    /// Time of the next number.
+    next: Instant,
+}
+
+impl Rows {
+    /// Time before the first number, and between two of them on a terminal; between two lines elsewhere.
+    const SOON: Duration = Duration::from_secs(1);
+    const LATER: Duration = Duration::from_secs(10);
+
+    /// Numbers that nobody is told, or everybody.
+    #[must_use]
+    pub fn new(is_quiet: bool) -> Self {
+        Self { is_quiet, line: None, next: Instant::now() + Self::SOON }
+    }
+
+    /// Tells the number of rows so far, if that is due.
+    pub fn so_far(&mut self, rows: usize) {
+        if self.is_quiet || Instant::now() < self.next {
+            return;
+        }
+        let text = format!("{rows} rows so far");
+        if std::io::stderr().is_terminal() {
+            self.line.get_or_insert_with(ProgressBar::new_spinner).set_message(text);
+            self.next = Instant::now() + Self::SOON;
+        } else {
+            note(&text);
+            self.next = Instant::now() + Self::LATER;
+        }
+    }
+
+    /// Takes the line away.
+    pub fn end(self) {
+        if let Some(line) = self.line {
+            line.finish_and_clear();
+        }
+    }
 }
 
 /// Prints the numbers of a run's jobs by their states at its end. On a terminal, rings and notifies where jobs ran.

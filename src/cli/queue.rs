@@ -6,7 +6,7 @@ use super::run::selection;
 use super::{CliError, End, Outcome};
 use engine::{actions, why_no_retry};
 use spec::Selection;
-use store::{JobFilter, JobId, Store, StudyError, Table, Value, read};
+use store::{JobFilter, JobId, Store, StudyError, Table, Value, queue, read};
 
 /// Runs a queue command.
 pub fn run(context: &Context, command: &Queue) -> Outcome {
@@ -71,7 +71,11 @@ fn list(store: &Store, study: Option<&str>, all: bool) -> Result<Table, StudyErr
     let columns = [
         "job", "study", "garment", "size", "subject", "sim", "status", "prio", "done", "ei", "wall_s", "tries", "error",
     ];
+    // Where nothing may be written, they are not back in the queue.
+    let interrupted = queue::interrupted(store)?;
     let rows = read::jobs(store, &filter)?.into_iter().map(|job| {
+        let lost = interrupted.iter().find(|lost| lost.job == job.id);
+        let status = if lost.is_some() { "interrupted" } else { job.status.as_str() };
         let real = |number: Option<f64>| number.map_or(Value::Null, Value::Real);
         let percent =
             job.progress.as_ref().map(|progress| format!("{:.0} % {}", progress.fraction * 100.0, progress.phase));
@@ -82,23 +86,24 @@ fn list(store: &Store, study: Option<&str>, all: bool) -> Result<Table, StudyErr
             Value::Text(job.size),
             Value::Text(job.subject),
             Value::Text(job.simulator.as_str().to_owned()),
-            Value::Text(job.status.as_str().to_owned()),
+            Value::Text(status.to_owned()),
             Value::Integer(job.priority),
             percent.map_or(Value::Null, Value::Text),
             real(job.ei),
             real(job.wall_ms.map(|ms| ms as f64 / 1e3)),
             Value::Integer(i64::from(job.attempts)),
-            job.error.map_or(Value::Null, Value::Text),
+            lost.map(ToString::to_string).or(job.error).map_or(Value::Null, Value::Text),
         ]
     });
     Ok(Table::new(columns, rows))
 }
 
-/// Table of a job's log, with times in seconds since the job was queued.
+/// Table of a job's log, with times in seconds since the job last started: below 0 before, empty for one that has not.
 fn log(store: &Store, id: JobId) -> Result<Table, StudyError> {
-    let queued = read::job(store, id)?.queued_at_ms;
+    let started = read::job(store, id)?.started_at_ms;
     let rows = read::log(store, id)?.into_iter().map(|line| {
-        vec![Value::Real((line.at_ms - queued) as f64 / 1e3), Value::Text(line.level), Value::Text(line.text)]
+        let seconds = started.map_or(Value::Null, |started| Value::Real((line.at_ms - started) as f64 / 1e3));
+        vec![seconds, Value::Text(line.level), Value::Text(line.text)]
     });
     Ok(Table::new(["seconds", "level", "message"], rows))
 }

@@ -18,9 +18,20 @@ use wardrobe::{Mode, StyleGiven, catalogue};
 /// Runs a study command.
 pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
     match command {
-        StudyCommand::New { folder, wear, subject, patterns, style_name, seams, unit, fabric, sim, fit, .. }
-            if !subject.is_empty() =>
-        {
+        StudyCommand::New {
+            folder,
+            wear,
+            outfit,
+            subject,
+            patterns,
+            style_name,
+            seams,
+            unit,
+            fabric,
+            sim,
+            fit,
+            ..
+        } if !subject.is_empty() => {
             let mut store = context.store()?;
             let folder = new_folder(folder);
             let own = own_style(context, &mut store, patterns, style_name.as_ref(), seams.as_ref(), *unit)?;
@@ -42,6 +53,7 @@ pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
                 fabric: fabric.clone(),
                 simulators: sim.iter().map(|&sim| sim.into()).collect(),
                 fit: fit.map(Into::into),
+                outfits: outfit.clone(),
             };
             let path = compose::create_study(&mut store, &new)?;
             context.say(format_args!("wrote {}; `{}` runs it", path.display(), run_command(&folder)));

@@ -3,12 +3,13 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+use crate::outfits::NewOutfit;
 use crate::{enqueue, run};
 use fit::Simulator;
 use fit::target::Intended;
 use spec::Selection;
 use spec::export::{Files, place};
-use spec::new_study::{Outline, Worn, drafted_size};
+use spec::new_study::{Layered, Outline, Worn, drafted_size};
 use spec::patterns::{self, Model};
 use store::files::{self, SourceFile};
 use store::{Result, SizeKey, Store, StudyError};
@@ -51,6 +52,15 @@ pub struct NewStudy {
     pub simulators: Vec<Simulator>,
     /// Intended fit of all garments; `None` for the default.
     pub fit: Option<Intended>,
+    /// Outfits of the styles.
+    pub outfits: Vec<NewOutfit>,
+}
+
+impl NewStudy {
+    /// Styles with their sizes.
+    fn chosen(&self) -> Vec<(&str, &str)> {
+        self.sizes.iter().map(|wearable| (wearable.style.as_str(), wearable.size.as_str())).collect()
+    }
 }
 
 /// Sizes that a new study may wear: those of the catalogue, and those of drafted styles whose names the catalogue does
@@ -113,9 +123,20 @@ fn files_of(store: &Store, new: &NewStudy) -> Result<Vec<(String, Vec<u8>)>> {
         garments,
         fabric: &new.fabric,
         fit: new.fit,
+        outfits: new.outfits.iter().map(|outfit| layered(new, outfit)).collect::<Result<_>>()?,
     };
     files.insert("study.toml".to_owned(), outline.text().into_bytes());
     Ok(files.into_iter().collect())
+}
+
+/// Outfit for the study file, with the sizes that are worn together.
+fn layered<'a>(new: &'a NewStudy, outfit: &'a NewOutfit) -> Result<Layered<'a>> {
+    let refuse = |problem| StudyError::Refused { what: "study", name: new.name.clone(), problems: vec![problem] };
+    let sizes = outfit.sizes(&new.chosen()).map_err(refuse)?;
+    // Sizes of one name are what the file takes by itself.
+    let is_one = |sizes: &&Vec<&str>| sizes.iter().all(|size| *size == sizes[0]);
+    let odd = sizes.into_iter().find(|sizes| !is_one(&sizes));
+    Ok(Layered { name: &outfit.name, layers: outfit.layers.iter().map(String::as_str).collect(), sizes: odd })
 }
 
 /// Adds the files of a size that are not there yet.
@@ -153,7 +174,8 @@ fn check(new: &NewStudy) -> Result<()> {
         (new.sizes.is_empty(), "no size of a style is chosen"),
         (new.simulators.is_empty(), "no simulator is chosen"),
     ];
-    let problems: Vec<String> = wrong.iter().filter(|(is, _)| *is).map(|(_, why)| (*why).to_owned()).collect();
+    let mut problems: Vec<String> = wrong.iter().filter(|(is, _)| *is).map(|(_, why)| (*why).to_owned()).collect();
+    problems.extend(new.outfits.iter().filter_map(|outfit| outfit.sizes(&new.chosen()).err()));
     if problems.is_empty() {
         return Ok(());
     }
@@ -171,7 +193,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use store::read;
+    use store::{OutfitRow, read};
 
     fn new_study(folder: &Path) -> NewStudy {
         let sizes =
@@ -184,7 +206,35 @@ mod tests {
             fabric: "cotton_shirting_light".to_owned(),
             simulators: vec![Simulator::Fem, Simulator::Hybrid],
             fit: None,
+            outfits: vec![],
         }
+    }
+
+    #[test]
+    fn an_outfit_is_written_and_its_layers_queued() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut store = catalogue::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
+        let of = |style: &'static str, size: &'static str| {
+            wearables(&[]).into_iter().filter(move |one| one.style == style && one.size == size)
+        };
+        let sizes: Vec<Wearable> = of("tshirt", "M").chain(of("trousers", "M")).collect();
+        assert_eq!(sizes.len(), 2, "both are drafted");
+        let outfits = vec!["look=tshirt,trousers".parse().expect("an outfit")];
+        let new = NewStudy { sizes, outfits, ..new_study(folder.path()) };
+        let path = create_study(&mut store, &new).expect("whole");
+        // Two garments by two simulators, and two layers by FEM-GS alone, on two subjects.
+        assert_eq!(read::study(&store, &new.name).expect("queued").total(), 2 * (2 * 2 + 2));
+        let found = read::outfits(&store).expect("readable");
+        let layer = |garment: &str, style: &str| (garment.to_owned(), style.to_owned());
+        let layers = vec![layer("look tshirt", "tshirt"), layer("look trousers", "trousers")];
+        assert_eq!(found, [OutfitRow { study: new.name.clone(), name: "look".to_owned(), layers }]);
+        let text = std::fs::read_to_string(&path).expect("written");
+        assert!(text.contains("[[outfit]]\nname = \"look\"\nlayers = [\"tshirt\", \"trousers\"]\n"), "{text}");
+
+        let outfits = vec!["look=tshirt,coat".parse().expect("an outfit")];
+        let refused = create_study(&mut store, &NewStudy { name: "other".into(), outfits, ..new });
+        let told = refused.expect_err("there is no coat").to_string();
+        assert!(told.contains("no size of coat is chosen") && !folder.path().join("other").exists(), "{told}");
     }
 
     #[test]

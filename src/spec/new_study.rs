@@ -32,6 +32,18 @@ pub struct Outline<'a> {
     pub fabric: &'a str,
     /// Intended fit of all garments; `None` for the default.
     pub fit: Option<Intended>,
+    /// Outfits of the garments.
+    pub outfits: Vec<Layered<'a>>,
+}
+
+/// An outfit of a new study.
+pub struct Layered<'a> {
+    /// Name of the outfit.
+    pub name: &'a str,
+    /// Names of the garments, the inner first.
+    pub layers: Vec<&'a str>,
+    /// One size of each layer; `None` for all that they share.
+    pub sizes: Option<Vec<&'a str>>,
 }
 
 /// A garment of a new study.
@@ -78,6 +90,15 @@ edge_length_mm = 15         # of the finest cloth mesh: 25 is quick, 10 is fine
         text += "\n# A style of the catalogue (`toile style ls`) needs no files: style = \"...\", sizes = [\"S\"].\n";
         for garment in &self.garments {
             self.write_garment(&mut text, garment);
+        }
+        for Layered { name, layers, sizes } in &self.outfits {
+            let _ = writeln!(text, "[[outfit]]\nname = {}\nlayers = {}", quoted(name), list(layers));
+            match sizes {
+                Some(sizes) => drop(writeln!(text, "sizes = {}\n", list(sizes))),
+                None => text.push_str(
+                    "# sizes = [\"...\"]            # one size of each layer; default: all that they share\n\n",
+                ),
+            }
         }
         text += "# Everything again in other cloths and on finer meshes; parameters of the simulators too, such as \
                  fem.offset_mu.\n# [[sweep]]\n# fabric = [\"cotton_shirting_light\", \"interlock_tshirt\"]\n\
@@ -198,6 +219,7 @@ pub fn new_study(folder: &Path, model: Model, fit: Option<Intended>) -> Result<V
         garments: vec![garment],
         fabric: sim::fabric::USUAL,
         fit,
+        outfits: vec![],
     };
     files.insert(0, ("study.toml".to_owned(), outline.text().into_bytes()));
     Ok(files)

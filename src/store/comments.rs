@@ -70,7 +70,7 @@ named!(Severity { Minor = "minor", Major = "major", Critical = "critical" });
 named!(State { Open = "open", Met = "met", Closed = "closed" });
 
 /// Content of a comment.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Remark {
     /// Side from which it is seen.
     pub side: Side,
@@ -89,7 +89,7 @@ pub struct Remark {
 }
 
 /// A comment with its history.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Comment {
     /// Name of the garment in the study.
     pub garment: String,
@@ -112,6 +112,23 @@ pub struct Comment {
     pub owner: String,
     /// Name of who signed the round off; `None` if nobody did.
     pub signed_by: Option<String>,
+    /// True if somebody worded it: later rounds leave its words.
+    pub is_worded: bool,
+}
+
+/// Last round of a fitting.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Round {
+    /// Name of the garment in the study.
+    pub garment: String,
+    /// Name of the subject in the study.
+    pub subject: String,
+    /// Number of the round, from 1.
+    pub round: i64,
+    /// Size that was fitted.
+    pub size: String,
+    /// Name of who signed it off; `None` if nobody did.
+    pub signed_by: Option<String>,
 }
 
 /// A garment on a subject, of a study.
@@ -126,7 +143,7 @@ pub struct Fitting<'a> {
 }
 
 /// Change of a comment. `None` leaves a field as it is.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Edit {
     /// New state.
     pub status: Option<State>,
@@ -138,6 +155,25 @@ pub struct Edit {
     pub action: Option<String>,
     /// New owner.
     pub owner: Option<String>,
+    /// True if later rounds leave the words, false if they do not; `None` leaves new words alone, and other words as
+    /// they are.
+    pub is_worded: Option<bool>,
+}
+
+impl Edit {
+    /// The change that takes this one of a comment back.
+    #[must_use]
+    pub fn before(&self, comment: &Comment) -> Self {
+        let remark = &comment.remark;
+        Self {
+            status: self.status.map(|_| comment.status),
+            severity: self.severity.map(|_| remark.severity),
+            said: self.said.as_ref().map(|_| remark.said.clone()),
+            action: self.action.as_ref().map(|_| remark.action.clone()),
+            owner: self.owner.as_ref().map(|_| comment.owner.clone()),
+            is_worded: Some(comment.is_worded),
+        }
+    }
 }
 
 /// Comments of a study, by garment, subject and number.
@@ -147,7 +183,7 @@ pub struct Edit {
 pub fn comments(store: &Store, study: &str) -> Result<Vec<Comment>> {
     let sql =
         "SELECT garment, subject, size, round, number, side, place, said, severity, cause, action, quantity, status,
-            met_in, owner, signed_by
+            met_in, owner, signed_by, (SELECT is_worded FROM fit_comment WHERE comment_id = v_comment.comment_id)
         FROM v_comment WHERE study = ? ORDER BY garment, subject, number";
     let mut statement = store.reader.prepare_cached(sql)?;
     Ok(statement.query_map([study], comment)?.collect::<rusqlite::Result<_>>()?)
@@ -174,7 +210,29 @@ fn comment(row: &Row<'_>) -> rusqlite::Result<Comment> {
         met_in: row.get(13)?,
         owner: text(14)?,
         signed_by: row.get(15)?,
+        is_worded: row.get(16)?,
     })
+}
+
+/// Last round of each fitting of a study, by garment and subject.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn last_rounds(store: &Store, study: &str) -> Result<Vec<Round>> {
+    // The other columns are those of the row with the greatest round.
+    let sql = "SELECT garment, subject, max(round), size, signed_by FROM fit_round JOIN study USING (study_id)
+        WHERE study.name = ? GROUP BY garment, subject ORDER BY garment, subject";
+    let round = |row: &Row<'_>| {
+        Ok(Round {
+            garment: row.get(0)?,
+            subject: row.get(1)?,
+            round: row.get(2)?,
+            size: row.get(3)?,
+            signed_by: row.get(4)?,
+        })
+    };
+    let mut statement = store.reader.prepare_cached(sql)?;
+    Ok(statement.query_map([study], round)?.collect::<rusqlite::Result<_>>()?)
 }
 
 /// Begins the next round of a fitting in a size, with what was measured. An open comment of an earlier round whose
@@ -260,7 +318,7 @@ pub fn edit(store: &mut Store, fitting: Fitting<'_>, number: i64, edit: &Edit) -
     let study_id = study_id(&transaction, fitting.study)?;
     let changed = transaction.execute(
         "UPDATE fit_comment SET status = coalesce(?, status), severity = coalesce(?, severity), said = coalesce(?, said),
-            action = coalesce(?, action), owner = coalesce(?, owner), is_worded = is_worded OR ?, changed_at = ?
+            action = coalesce(?, action), owner = coalesce(?, owner), is_worded = coalesce(?, is_worded OR ?), changed_at = ?
         WHERE study_id = ? AND garment = ? AND subject = ? AND number = ?",
         params![
             edit.status.map(State::as_str),
@@ -268,6 +326,7 @@ pub fn edit(store: &mut Store, fitting: Fitting<'_>, number: i64, edit: &Edit) -
             edit.said,
             edit.action,
             edit.owner,
+            edit.is_worded,
             edit.said.is_some() || edit.action.is_some(),
             now_ms(),
             study_id,

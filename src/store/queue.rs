@@ -3,6 +3,8 @@
 //! A running job has an owner (a run of a process) that renews its heartbeat. A report of the owner is accepted
 //! only while it still is the owner. A job that was taken over or cancelled meanwhile is thus never finished twice.
 
+use std::fmt;
+
 use rusqlite::{Connection, OptionalExtension, Transaction, named_params};
 
 use crate::columns::status;
@@ -212,6 +214,31 @@ pub fn recover(store: &mut Store, watch: &mut Watch) -> Result<usize> {
         return Ok(0);
     }
     lightly(store.writer()?, |transaction| take_over(transaction, watch))
+}
+
+/// A job that is stored as running and whose process has ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Interrupted {
+    /// Number of the job.
+    pub job: JobId,
+    /// The process in words, with its machine.
+    pub process: String,
+}
+
+impl fmt::Display for Interrupted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "interrupted: {} ended before the job did", self.process)
+    }
+}
+
+/// Jobs whose process has ended: [`recover`] puts them back into the queue, where the database may be written. Of
+/// another machine's process nobody can tell at once.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn interrupted(store: &Store) -> Result<Vec<Interrupted>> {
+    let lost = lost(&store.reader, &mut Watch::default())?.into_iter();
+    Ok(lost.map(|(job, owner)| Interrupted { job, process: owner::describe(&owner) }).collect())
 }
 
 /// Processes that run jobs of a study now.

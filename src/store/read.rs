@@ -8,8 +8,8 @@ use crate::columns::{fit_class, simulator, status};
 use crate::database::Store;
 use crate::error::{Result, StudyError};
 use crate::rows::{
-    Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, RecommendationRow, StageRow,
-    Status, StudyRow,
+    Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, OutfitRow,
+    RecommendationRow, StageRow, Status, StudyRow,
 };
 use fit::{Cuts, Simulator};
 use geom::units::from_mm;
@@ -253,6 +253,29 @@ pub fn layers_under(store: &Store, id: JobId) -> Result<Vec<JobId>> {
         JOIN job_input AS of_under ON of_under.job_id = under.job_id AND of_under.name = 'outfit.id'
         WHERE own.job_id = ? AND under.layer < own.layer AND of_own.value = of_under.value ORDER BY under.layer";
     rows(store, sql, &[&id.0], |row| Ok(JobId(row.get(0)?)))
+}
+
+/// Outfits of all studies, each with its layers.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn outfits(store: &Store) -> Result<Vec<OutfitRow>> {
+    // One job tells of which layer a garment is.
+    let sql = "SELECT study.name, outfit.value, first.garment, style.name
+        FROM (SELECT study_id, garment, min(job_id) AS job_id FROM job WHERE is_current GROUP BY study_id, garment) AS first
+        JOIN study USING (study_id) JOIN job USING (job_id) JOIN style USING (style_id)
+        JOIN job_input AS outfit ON outfit.job_id = first.job_id AND outfit.name = 'outfit.name'
+        JOIN job_input AS layer ON layer.job_id = first.job_id AND layer.name = 'outfit.layer'
+        ORDER BY study.name, outfit.value, CAST(layer.value AS INTEGER)";
+    let mut outfits: Vec<OutfitRow> = vec![];
+    let layer = |row: &Row<'_>| Ok((row.get(0)?, row.get(1)?, (row.get(2)?, row.get(3)?)));
+    for (study, name, layer) in rows(store, sql, &[], layer)? {
+        match outfits.last_mut().filter(|last| (&last.study, &last.name) == (&study, &name)) {
+            Some(last) => last.layers.push(layer),
+            None => outfits.push(OutfitRow { study, name, layers: vec![layer] }),
+        }
+    }
+    Ok(outfits)
 }
 
 /// Ease and fit class of every size on every subject of a study.

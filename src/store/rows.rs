@@ -141,6 +141,17 @@ impl StudyRow {
     }
 }
 
+/// An outfit of a study.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OutfitRow {
+    /// Name of the study.
+    pub study: String,
+    /// Name of the outfit.
+    pub name: String,
+    /// Garment in the study and style in the catalogue of each layer, the inmost first.
+    pub layers: Vec<(String, String)>,
+}
+
 /// A job as lists show it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JobRow {
@@ -371,6 +382,9 @@ pub struct StageRow {
     /// True where the cache had the product.
     pub was_cached: bool,
 }
+
+/// Ending of a file, and the maker of its bytes from rows.
+pub type Encoder = (&'static str, fn(&Table) -> std::io::Result<Vec<u8>>);
 
 /// A table of text and numbers, such as a listing of the catalogue or the rows of a query.
 #[derive(Clone, Debug, Default, PartialEq)]

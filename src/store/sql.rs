@@ -38,7 +38,7 @@ pub fn interrupter(store: &Store) -> Interrupter {
 /// # Errors
 /// The message of SQLite on the query; [`StudyError::Interrupted`] when an [`Interrupter`] stopped it.
 pub fn query(store: &Store, sql: &str) -> Result<Table> {
-    Ok(answer(store, sql, usize::MAX, &AtomicBool::new(false))?.table)
+    Ok(answer(store, sql, usize::MAX, &AtomicBool::new(false), &mut |_| {})?.table)
 }
 
 pub(crate) fn value(value: ValueRef<'_>) -> Value {
@@ -69,11 +69,18 @@ pub struct Relation {
     pub columns: Vec<String>,
 }
 
-/// Returns at most `most` rows of a query, as [`query`] does; `stop` ends it early.
+/// Returns at most `most` rows of a query, as [`query`] does; `stop` ends it early, `so_far` is told the number of rows
+/// after each.
 ///
 /// # Errors
 /// The message of SQLite on the query; [`Interrupted`](crate::StudyError::Interrupted) when it was stopped.
-pub fn answer(store: &Store, text: &str, most: usize, stop: &AtomicBool) -> Result<SqlAnswer> {
+pub fn answer(
+    store: &Store,
+    text: &str,
+    most: usize,
+    stop: &AtomicBool,
+    so_far: &mut dyn FnMut(usize),
+) -> Result<SqlAnswer> {
     let mut answer = SqlAnswer::default();
     each_row(store, text, stop, |columns, row| {
         if answer.table.columns != columns {
@@ -83,6 +90,7 @@ pub fn answer(store: &Store, text: &str, most: usize, stop: &AtomicBool) -> Resu
             answer.is_cut = answer.table.rows.len() == most;
             if !answer.is_cut {
                 answer.table.rows.push(row);
+                so_far(answer.table.rows.len());
             }
         } else {
             answer.table.rows.clear();
@@ -92,12 +100,19 @@ pub fn answer(store: &Store, text: &str, most: usize, stop: &AtomicBool) -> Resu
     Ok(answer)
 }
 
-/// Writes all rows of a query into a file and returns their number. The file's ending says CSV or JSON.
+/// Writes all rows of a query into a file and returns their number. The file's ending says CSV or JSON. `stop` ends it
+/// early, `so_far` is told the number of rows after each.
 ///
 /// # Errors
 /// The message of SQLite on the query; when the file has another ending, exists already or cannot be written; when the
 /// query was stopped.
-pub fn export_query(store: &Store, text: &str, path: &Path, stop: &AtomicBool) -> Result<usize> {
+pub fn export_query(
+    store: &Store,
+    text: &str,
+    path: &Path,
+    stop: &AtomicBool,
+    so_far: &mut dyn FnMut(usize),
+) -> Result<usize> {
     let is_json = kind_of(path, &[("csv", false), ("json", true)]).origin(Origin::Sql)?;
     let file = File::create_new(path).map_err(StudyError::io(path))?;
     let mut out = BufWriter::new(file);
@@ -114,6 +129,7 @@ pub fn export_query(store: &Store, text: &str, path: &Path, stop: &AtomicBool) -
         };
         rows += usize::from(row.is_some());
         out.write_all(line.as_bytes()).map_err(StudyError::io(path))?;
+        so_far(rows);
         Ok(true)
     });
     let end = match (is_json, rows) {
@@ -265,7 +281,7 @@ mod tests {
         let (_folder, store) = open();
         let go = AtomicBool::new(false);
         let check = |sql: &str, rows: usize, is_cut: bool| {
-            let answer = answer(&store, sql, 3, &go).expect("a right query");
+            let answer = answer(&store, sql, 3, &go, &mut |_| {}).expect("a right query");
             assert_eq!((answer.table.rows.len(), answer.is_cut), (rows, is_cut), "{sql}");
         };
         check(&counted(2), 2, false);
@@ -273,10 +289,15 @@ mod tests {
         check(&counted(4), 3, true);
         check("SELECT 1; SELECT 2 UNION SELECT 3", 2, false);
         check("-- nothing", 0, false);
-        assert_eq!(answer(&store, "SELECT 1 AS a WHERE 0", 3, &go).expect("right").table.columns, ["a"]);
-        assert!(matches!(answer(&store, &counted(9), 9, &AtomicBool::new(true)), Err(StudyError::Interrupted)));
+        let mut none = |_| {};
+        assert_eq!(answer(&store, "SELECT 1 AS a WHERE 0", 3, &go, &mut none).expect("right").table.columns, ["a"]);
+        let stopped = answer(&store, &counted(9), 9, &AtomicBool::new(true), &mut none);
+        assert!(matches!(stopped, Err(StudyError::Interrupted)));
+        let mut told = vec![];
+        answer(&store, &counted(3), 9, &go, &mut |rows| told.push(rows)).expect("right");
+        assert_eq!(told, [1, 2, 3]);
         for wrong in ["DELETE FROM job", "SELECT nothing", "SELECT ("] {
-            assert!(answer(&store, wrong, 3, &go).is_err(), "{wrong}");
+            assert!(answer(&store, wrong, 3, &go, &mut none).is_err(), "{wrong}");
         }
     }
 
@@ -284,7 +305,10 @@ mod tests {
     fn files_hold_all_rows_and_none_is_overwritten() {
         let (folder, store) = open();
         let go = AtomicBool::new(false);
-        let write = |name: &str, sql: &str| export_query(&store, sql, &folder.path().join(name), &go);
+        let mut most = 0;
+        let mut write = |name: &str, sql: &str| {
+            export_query(&store, sql, &folder.path().join(name), &go, &mut |rows| most = rows.max(most))
+        };
         let text = |name: &str| fs::read_to_string(folder.path().join(name)).expect("written");
         assert_eq!(write("a.csv", &counted(2)).expect("written"), 2);
         assert_eq!(text("a.csv"), "x,t\n1,\"a,\"\"b\"\n2,\"a,\"\"b\"\n");
@@ -303,6 +327,7 @@ mod tests {
             assert!(told.contains("accepted: X.csv or X.json") && !folder.path().join(other).exists(), "{told}");
         }
         assert!(write("b.csv", "SELECT nothing").is_err() && !folder.path().join("b.csv").exists());
+        assert_eq!(most, 2, "rows are told while they are written");
     }
 
     #[test]

@@ -48,7 +48,7 @@ use keys::file as keys_file;
 use messages::effect::Effect;
 use messages::message::Message;
 use screens::state::{Abilities, Folders};
-use store::{StudyError, Table};
+use store::{Encoder, StudyError};
 use terminal::Display;
 use terminal::clipboard;
 use threads::Threads;
@@ -69,8 +69,8 @@ pub struct Options {
     pub no_color: bool,
     /// Way in which pictures are shown.
     pub images: Images,
-    /// Maker of a Parquet file from rows, for exports.
-    pub parquet: fn(&Table) -> Vec<u8>,
+    /// Makers of files that need all rows at once, for exports, by the endings of the files.
+    pub encoders: &'static [Encoder],
     /// Folder of the study that comes with the program. A database without studies is offered it; it is written when it
     /// is run.
     pub quickstart: PathBuf,
@@ -129,7 +129,7 @@ pub fn run(options: Options) -> Result<Left, TuiError> {
     session.clone().restore(&mut app);
     let mut keeper = Keeper::new(path, session);
     let threads =
-        Threads::start(store, encoder, options.quickstart, app.state.setup.folders.reports.clone(), options.parquet);
+        Threads::start(store, encoder, options.quickstart, app.state.setup.folders.reports.clone(), options.encoders);
     let outcome = event_loop(&mut display, &mut app, &threads, &mut keeper);
     drop(display);
     keeper.keep(&app);

@@ -207,6 +207,7 @@ impl Wardrobe {
             garments: worn,
             fabric: &self.fabric,
             fit: None,
+            outfits: vec![],
         };
         for (name, wearer) in bodies {
             match wearer {

@@ -148,6 +148,28 @@ fn a_run_killed_at_any_moment_loses_nothing_and_ends_the_same() {
 }
 
 #[test]
+fn a_lost_job_is_told_as_interrupted_where_nothing_may_be_written() {
+    let place = place(40);
+    let mut run = start(place.command(RUN));
+    let patience = Instant::now() + Duration::from_secs(60);
+    while finished(&place).is_empty() {
+        assert!(Instant::now() < patience && run.try_wait().expect("ours").is_none(), "no job was done");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    run.kill().expect("SIGKILL");
+    run.wait().expect("ours");
+    let running = || rows(&open(&place), "SELECT job_id FROM job WHERE status = 'running'").len();
+    let lost = running();
+    assert!(lost > 0, "two workers have a job at any moment");
+    let told = place.toile("queue ls --readonly").ends_with(0).out;
+    assert_eq!(told.matches("interrupted: process").count(), lost, "{told}");
+    assert_eq!(running(), lost, "nothing is written");
+    let told = place.toile("queue ls").ends_with(0);
+    assert!(told.err.contains("a run was interrupted") && !told.out.contains("interrupted: "), "{}", told.out);
+    assert_eq!(running(), 0);
+}
+
+#[test]
 fn two_runs_at_once_share_the_work() {
     let expect = place(2);
     end(start(expect.command(RUN))).ends_with(0);

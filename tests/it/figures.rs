@@ -9,18 +9,23 @@ use super::seat::Seat;
 use super::workbench::workbench;
 
 /// Keys after each other, each with what it does.
-const KEYS: [(&str, &str); 10] = [
+const KEYS: [(&str, &str); 13] = [
     ("<Down>", "the next line of the grid"),
     ("4", "the queue"),
     ("<Down>", "the next job"),
     ("<PgDn>", "a page of jobs"),
-    ("G", "the last job"),
+    ("g", "the first job"),
     ("/", "the line of the filter"),
     ("7", "a letter of it, over all jobs"),
     ("<Enter>", "the filter kept"),
-    ("5", "a result"),
+    ("5", "a result, and its picture"),
+    ("<Right>", "the next one"),
+    ("v", "its picture turned"),
+    ("0", "how all sizes sit"),
     ("9", "the fabrics"),
 ];
+/// Pause after which nothing more is taken as the answer to a key: longer than a picture takes.
+const PAUSE: Duration = Duration::from_millis(1500);
 /// How long the program is watched at rest.
 const REST: Duration = Duration::from_secs(10);
 
@@ -43,8 +48,9 @@ fn figures_of_the_workbench() {
             let start = Instant::now();
             seat.press(key);
             let first = seat.first_byte(before, start);
-            seat.settle();
-            eprintln!("  {key:7} {first:>12.1?} {:6} bytes, pictures among them: {what}", seat.bytes() - before);
+            let last = seat.last_byte(start, PAUSE);
+            let bytes = seat.bytes() - before;
+            eprintln!("  {key:7} first byte {first:>9.1?}, last {last:>9.1?}, {bytes:6} bytes: {what}");
         }
         let before = seat.cpu();
         std::thread::sleep(REST);

@@ -182,6 +182,9 @@ fn a_changed_number_recomputes_its_drape(place: &Place) {
     let run = place.toile("run . --why --no-report").ends_with(0);
     assert!(run.err.contains(&format!("light m ii fem: changed since job 1: {named}")), "{}", run.err);
     assert!(run.err.contains("2 jobs, 1 to run, 1 up to date"), "{}", run.err);
+    let lines = place.toile("queue log 3 --json").ends_with(0).json();
+    let seconds = |k: usize| lines[k]["seconds"].as_f64().expect("a number");
+    assert!(seconds(0) <= 0.0 && seconds(1).abs() < 1.0, "queued, then started: {lines}");
     let log = place.toile("queue log 3").ends_with(0).out;
     assert!(log.contains("body from the cache, field from the cache, mesh from the cache, drape made"), "{log}");
     assert_eq!(place.one("SELECT group_concat(kind, ' ') FROM artefact WHERE kind <> 'drape'").matches(' ').count(), 2);

@@ -146,11 +146,19 @@ impl Seat {
 
     /// Waits until nothing is sent any more.
     pub fn settle(&self) {
-        let mut before = usize::MAX;
-        while before != self.bytes() {
-            before = self.bytes();
-            thread::sleep(Duration::from_millis(400));
+        self.last_byte(Instant::now(), Duration::from_millis(400));
+    }
+
+    /// Time from a moment to the last that was sent before a pause.
+    pub fn last_byte(&self, start: Instant, pause: Duration) -> Duration {
+        let (mut seen, mut last) = (self.bytes(), start.elapsed());
+        while start.elapsed() - last < pause {
+            thread::sleep(Duration::from_millis(2));
+            if self.bytes() != seen {
+                (seen, last) = (self.bytes(), start.elapsed());
+            }
         }
+        last
     }
 
     /// Gives the terminal another size.

@@ -100,8 +100,8 @@ fn a_file_has_the_format_of_its_ending() {
         let told = place.toile(arguments).ends_with(2).err;
         assert!(told.contains(&format!("accepted: {accepted}")), "{arguments}: {told}");
     };
-    check("sql -f q.sql -o x.xlsx", "X.csv, X.json, X.parquet or X.txt");
-    check("sql -f q.sql -o x", "X.csv, X.json, X.parquet or X.txt");
+    check("sql -f q.sql -o x.ods", "X.csv, X.json, X.parquet, X.xlsx or X.txt");
+    check("sql -f q.sql -o x", "X.csv, X.json, X.parquet, X.xlsx or X.txt");
     check("sql -f q.sql --format csv -o x.parquet", "X.csv");
     check("sql -f q.sql --format parquet -o x.dat", "X.parquet");
     check("export 1 -o x.fbx", "X.glb, X.obj, X.ply or X.stl");
@@ -151,6 +151,7 @@ fn rows_are_written_in_the_format_of_the_file() {
     check("", "x.csv", b"x,y\n1,'=1+2\n");
     check("", "x.JSON", b"[\n  {\n    \"x\": 1,\n    \"y\": \"=1+2\"");
     check("", "x.parquet", b"PAR1");
+    check("", "x.xlsx", b"PK");
     check("", "x.txt", " x   y\n──".as_bytes());
     check("--format csv", "y.csv", b"x,y\n");
     check("--format csv", "y", b"x,y\n");

@@ -345,7 +345,7 @@ pub struct Sql {
     /// How to print the rows; a file has the format of its ending.
     #[arg(long, value_enum)]
     pub format: Option<Format>,
-    /// File to write to, in place of standard output: X.csv, X.json, X.parquet, or X.txt for a table in columns.
+    /// File to write to, in place of standard output: X.csv, X.json, X.parquet, X.xlsx, or X.txt for a table in columns.
     #[arg(long, short, value_name = "FILE")]
     pub output: Option<PathBuf>,
 }
@@ -361,6 +361,8 @@ pub enum Format {
     Json,
     /// For data frames: a Parquet file.
     Parquet,
+    /// For spreadsheets: a workbook.
+    Xlsx,
 }
 
 /// Arguments of `audit`.

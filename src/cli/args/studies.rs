@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand, ValueEnum};
 
 use super::{DraftStyle, PatternUnit, Sex, SubjectValues, TrySimulator};
+use engine::NewOutfit;
 
 /// A study by its folder, file or name.
 #[derive(Debug, Args)]
@@ -51,6 +52,9 @@ pub enum StudyCommand {
         /// Sizes of the catalogue, or of drafted styles, that it wears; its jobs are queued. May be given several times.
         #[arg(long, value_name = "STYLE/SIZE", requires = "subject")]
         wear: Vec<String>,
+        /// Styles worn over each other, the inner first; may be given several times.
+        #[arg(long, value_name = "NAME=STYLE,STYLE", requires = "subject")]
+        outfit: Vec<NewOutfit>,
         /// Who of the catalogue wears them; may be given several times.
         #[arg(long, value_name = "NAME")]
         subject: Vec<String>,

@@ -24,6 +24,7 @@ use crate::schedule::{Limits, Schedule};
 use body::{Body, Figures, LengthUnit, Measurements, Pose, Sex};
 use fit::target::Target;
 use fit::{Cuts, Simulator};
+pub use outfits::LAYERS;
 use sim::Fabric;
 pub use store::files::SourceFile;
 use store::{InFile, Origin, Problem, Result, StudyError};

@@ -9,7 +9,7 @@ use crate::file::values::{lookup, unique};
 use crate::file::{GarmentEntry, SizeFile, WornWith};
 
 /// Accepted numbers of layers; contact keeps at most five apart.
-const LAYERS: std::ops::RangeInclusive<usize> = 2..=5;
+pub const LAYERS: std::ops::RangeInclusive<usize> = 2..=5;
 
 /// Reads every layer of every outfit as a garment of its own. The layer `shirt` of the outfit `office` becomes `office
 /// shirt`.

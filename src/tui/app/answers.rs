@@ -64,6 +64,7 @@ impl App {
         match (outcome, &mut state.overlay) {
             (Err(text), Some(Overlay::Form(form))) if form.sending.is_busy => form.sending.refuse(text),
             (Err(text), Some(Overlay::Path(prompt))) if prompt.sending.is_busy => prompt.sending.refuse(text),
+            (Err(text), Some(Overlay::CommentForm(form))) if form.sending.is_busy => form.sending.refuse(text),
             (Err(text), Some(Overlay::StyleForm(form))) if form.sending.is_busy => form.refused(text),
             (Err(text), _) => state.complain(text),
             (Ok(text), overlay) => {
@@ -80,6 +81,7 @@ impl App {
                         screens.styles.selected = Some((form.style(), form.size()));
                         *overlay = None;
                     }
+                    Some(Overlay::CommentForm(form)) if form.sending.is_busy => *overlay = None,
                     Some(Overlay::Path(prompt)) if prompt.sending.is_busy => *overlay = None,
                     _ => {}
                 }

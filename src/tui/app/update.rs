@@ -63,6 +63,10 @@ impl App {
             Message::Done(text) => state.say(text),
             Message::Failed(text) => state.complain(text),
             Message::Saved(outcome) => self.saved(outcome),
+            Message::Commented(of, change, text) => {
+                screens.fit.comments.changed(of, *change);
+                self.saved(Ok(text));
+            }
             Message::Measured(id, outcome) => drop(screens.subjects.measured.insert(id, outcome)),
             Message::LaidOut(request, outcome) => screens.styles.take_layout(state, *request, outcome),
             Message::Sewn(work, outcome) => screens.styles.sewn(state, *work, outcome),

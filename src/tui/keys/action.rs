@@ -88,6 +88,22 @@ pub enum Action {
     LargerSize,
     /// Finds the alteration of the next smaller size.
     SmallerSize,
+    /// Shows the comments of the fitting.
+    Comments,
+    /// Lists the comments of all fittings of the study, or of the shown one again.
+    AllComments,
+    /// Opens the form of a new comment.
+    AddComment,
+    /// Opens the form of the selected comment.
+    EditComment,
+    /// Closes the selected comment, or opens it again.
+    CloseComment,
+    /// Takes the last change of a comment back.
+    UndoComment,
+    /// Begins the next round of the fitting.
+    BeginRound,
+    /// Asks for the name of who signs the last round off.
+    SignRound,
     /// Shows only the measurements in which the compared runs differ, or all again.
     Differences,
     /// Opens the form of a new study.

@@ -1,6 +1,7 @@
 //! Effects: work that the event loop hands to threads and the terminal.
 
 use crate::messages::alterations::AlterRequest;
+use crate::messages::comments::RoundRequest;
 use crate::messages::requests::{Command, FileTask, QueryRequest, Target};
 use std::path::PathBuf;
 
@@ -32,6 +33,8 @@ pub enum Effect {
     Cut(Vec<JobId>),
     /// Find the alteration of a size.
     Alter(AlterRequest),
+    /// Begin the next round of a fitting.
+    Round(RoundRequest),
     /// Answer a query.
     Query(QueryRequest),
     /// Stop the query that runs.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use crossterm::event::{KeyEvent, MouseEvent};
 
 use crate::messages::alterations::AlterRequest;
+use crate::messages::comments::{Change, FittingOf};
 use crate::messages::effect::Writing;
 use crate::messages::seams::{LayoutRequest, PreviewRequest, Previewed, SeamWork, SizeLayout};
 use crate::messages::snapshot::Snapshot;
@@ -31,6 +32,8 @@ pub enum Message {
     Done(String),
     /// Entry of a form is saved, or the reason why not.
     Saved(Result<String, String>),
+    /// Comment of a fitting is changed, with a line about it.
+    Commented(FittingOf, Box<Change>, String),
     /// Subject's body is built and measured, or the reason why not.
     Measured(SubjectId, Result<Box<Girths>, String>),
     /// Size is laid out, or the reason why not.

@@ -3,6 +3,7 @@
 
 pub mod alterations;
 pub mod answered;
+pub mod comments;
 pub mod effect;
 pub mod message;
 pub mod requests;

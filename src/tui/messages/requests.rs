@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::messages::comments::{CommentDeed, FittingOf};
 use engine::NewStudy;
 use spec::Given;
 use store::JobId;
@@ -23,6 +24,8 @@ pub enum Command {
     SaveSeams(String, SourceFile),
     /// Write seams to a file whose contents are still those given first.
     WriteSeams(PathBuf, SourceFile, SourceFile),
+    /// Change the comments of a fitting.
+    Comment(FittingOf, CommentDeed),
     /// Cancel jobs.
     Cancel(Vec<JobId>),
     /// Queue jobs again.
@@ -39,7 +42,7 @@ impl Command {
     /// True if a form waits for the outcome.
     #[must_use]
     pub fn is_from_form(&self) -> bool {
-        matches!(self, Self::Save(..) | Self::Import(..) | Self::ImportStyle(..))
+        matches!(self, Self::Save(..) | Self::Import(..) | Self::ImportStyle(..) | Self::Comment(..))
     }
 }
 

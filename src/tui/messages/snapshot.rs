@@ -6,9 +6,11 @@ use engine::Why;
 use results::GarmentWorn;
 use sim::Step;
 use spec::Inputs;
+use store::comments::{Comment, Round};
 use store::owner::Runner;
 use store::{
-    Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobRow, LogLine, MetricsRow, RecommendationRow, StageRow, StudyRow,
+    Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobRow, LogLine, MetricsRow, OutfitRow, RecommendationRow, StageRow,
+    StudyRow,
 };
 use wardrobe::{FabricRow, SizeRow, SubjectRow};
 
@@ -51,6 +53,8 @@ pub struct Snapshot {
     pub fabrics: Vec<FabricRow>,
     /// Sizes of the styles of the catalogue.
     pub sizes: Vec<SizeRow>,
+    /// Outfits of all studies.
+    pub outfits: Vec<OutfitRow>,
     /// All studies of the database, by name.
     pub studies: Vec<StudyRow>,
     /// Index of the shown study in `studies`.
@@ -73,6 +77,10 @@ pub struct Snapshot {
     pub recommendations: Vec<RecommendationRow>,
     /// Fit of the garment on the wearer; `None` where there is none to show.
     pub worn: Option<GarmentWorn>,
+    /// Comments of the study's fittings, by garment, subject and number.
+    pub comments: Vec<Comment>,
+    /// Last round of each of these fittings.
+    pub rounds: Vec<Round>,
 }
 
 impl Snapshot {

@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
+use crate::messages::comments::{CommentDeed, FittingOf};
 use crate::messages::effect::Effect;
 use crate::messages::requests::{Command, FileTask, QueryRequest, Target};
 use engine::NewStudy;
 use store::JobId;
+use store::comments::{Severity, State};
 use store::files::word;
 use wardrobe::seams::{SeamEdit, SeamStep};
 use wardrobe::{Mode, Part, StyleGiven};
@@ -17,6 +19,7 @@ pub fn command(effect: &Effect) -> Option<String> {
         Effect::Do(command) => of_command(command),
         Effect::Run(Target::Study(path)) => Some(format!("toile run {}", shown(path))),
         Effect::Run(Target::Quickstart) => Some("toile run quickstart".to_owned()),
+        Effect::Round(request) => Some(format!("toile comment round{}", fitting(&request.of))),
         Effect::Files(FileTask::BuildReport(study)) => Some(format!("toile report {}", word(study))),
         Effect::Files(FileTask::CreateStudy(new)) => Some(new_study(new)),
         Effect::Query(QueryRequest::Save(_, name)) => Some(format!("# saved the query {name}")),
@@ -60,12 +63,50 @@ fn of_command(command: &Command) -> Option<String> {
         // Each step of work adds its own command when the seams are saved.
         Command::SaveSeams(..) => return None,
         Command::WriteSeams(path, ..) => format!("# wrote {}", path.display()),
+        Command::Comment(of, deed) => comment(of, deed),
         Command::Cancel(jobs) => format!("toile queue cancel{}", numbers(jobs)),
         Command::Retry(jobs) => format!("toile queue retry{}", numbers(jobs)),
         Command::Prioritise(job, step) => format!("# priority of {job} by {step:+}"),
         Command::Pause(study) => format!("toile queue pause {}", word(study)),
         Command::Resume(study) => format!("toile queue resume {}", word(study)),
     })
+}
+
+/// A fitting as words of a command line.
+fn fitting(of: &FittingOf) -> String {
+    format!(" {} --garment {} --subject {}", word(&of.study), word(&of.garment), word(&of.subject))
+}
+
+fn comment(of: &FittingOf, deed: &CommentDeed) -> String {
+    let fitting = fitting(of);
+    let flag =
+        |name: &str, value: Option<&str>| value.map_or_else(String::new, |value| format!(" --{name} {}", word(value)));
+    match deed {
+        CommentDeed::Add(remark) => {
+            let at = format!("{}:{}", remark.side.as_str(), remark.place);
+            let action = Some(remark.action.as_str()).filter(|action| !action.is_empty());
+            let severity = flag("severity", Some(remark.severity.as_str()));
+            format!(
+                "toile comment add{fitting} --at {} {}{severity}{}",
+                word(&at),
+                word(&remark.said),
+                flag("action", action)
+            )
+        }
+        CommentDeed::Set(change) => {
+            let edit = &change.edit;
+            let flags = [
+                // Only a round meets a comment.
+                flag("status", edit.status.filter(|status| *status != State::Met).map(State::as_str)),
+                flag("severity", edit.severity.map(Severity::as_str)),
+                flag("text", edit.said.as_deref()),
+                flag("action", edit.action.as_deref()),
+                flag("owner", edit.owner.as_deref()),
+            ];
+            format!("toile comment set{fitting} {}{}", change.number, flags.concat())
+        }
+        CommentDeed::Sign(by) => format!("toile comment sign{fitting}{}", flag("by", Some(by))),
+    }
 }
 
 /// Numbers of jobs as words of a command line.
@@ -101,6 +142,7 @@ fn new_study(new: &NewStudy) -> String {
     for size in &new.sizes {
         text += &format!(" --wear {}", word(&format!("{}/{}", size.style, size.size)));
     }
+    new.outfits.iter().for_each(|outfit| text += &format!(" --outfit {}", word(&outfit.to_string())));
     new.simulators.iter().for_each(|simulator| text += &format!(" --sim {}", simulator.as_str()));
     new.fit.iter().for_each(|fit| text += &format!(" --fit {}", fit.as_str()));
     text + &format!(" --fabric {}", word(&new.fabric))

@@ -2,6 +2,7 @@
 
 pub mod action_list;
 pub mod commands;
+pub mod comment_form;
 pub mod entry_form;
 pub mod explanation;
 pub mod form_frame;
@@ -23,6 +24,7 @@ use ratatui::widgets::{Clear, Paragraph, Wrap};
 use crate::messages::effect::Effect;
 use crate::overlays::action_list::{List, Row};
 use crate::overlays::commands::CommandLog;
+use crate::overlays::comment_form::CommentForm;
 use crate::overlays::entry_form::Form;
 use crate::overlays::explanation::Explanation;
 use crate::overlays::jump::Jump;
@@ -57,6 +59,8 @@ pub enum Overlay {
     Path(PathPrompt),
     /// The files of a style.
     StyleForm(Box<StyleForm>),
+    /// A comment of a fitting.
+    CommentForm(Box<CommentForm>),
     /// The parts of a new study.
     StudyForm(Box<StudyForm>),
     /// The list of saved queries.
@@ -102,6 +106,7 @@ impl Overlay {
             Self::Form(form) => entry_form::draw(frame, area, form, theme),
             Self::Path(prompt) => path_prompt::draw(frame, area, prompt, theme),
             Self::StyleForm(form) => style_form::draw(frame, area, form, theme),
+            Self::CommentForm(form) => comment_form::draw(frame, area, form, theme),
             Self::StudyForm(form) => study_form::draw(frame, area, form, theme),
             Self::Queries(list) => saved_queries::draw(frame, area, list, theme),
             Self::Commands(log) => commands::draw(frame, area, log, theme),
@@ -126,7 +131,9 @@ impl Overlay {
                 Outcome::Open
             }
             Self::Form(_) | Self::Path(_) | Self::StyleForm(_) | Self::Queries(_) if leaves => Outcome::Closed,
-            Self::Commands(_) | Self::Tour(_) | Self::Explanation(_) if leaves => Outcome::Closed,
+            Self::CommentForm(_) | Self::Commands(_) | Self::Tour(_) | Self::Explanation(_) if leaves => {
+                Outcome::Closed
+            }
             Self::Jump(jump) => jump.key(event),
             Self::Explanation(explanation) => {
                 explanation.key(event);
@@ -139,6 +146,7 @@ impl Overlay {
             Self::Form(form) => form.key(event),
             Self::Path(prompt) => prompt.key(event),
             Self::StyleForm(form) => form.key(event),
+            Self::CommentForm(form) => form.key(event),
             Self::Filter(before) if leaves => {
                 filter.clone_from(before);
                 Outcome::Closed

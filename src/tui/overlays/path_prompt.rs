@@ -7,6 +7,7 @@ use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
+use crate::messages::comments::{CommentDeed, FittingOf};
 use crate::messages::effect::Effect;
 use crate::messages::requests::{Command, FileTask, QueryRequest};
 use crate::overlays::form_frame::{Sending, draw_frame, ended};
@@ -29,6 +30,8 @@ pub enum Purpose {
     SaveQuery(String),
     /// New name for a saved query.
     RenameQuery(String),
+    /// Name of who signs the last round of a fitting off.
+    Sign(FittingOf),
 }
 
 impl Purpose {
@@ -42,6 +45,7 @@ impl Purpose {
             Self::Write(_) => "write the changed pattern, its seam file and a sheet into",
             Self::SaveQuery(_) => "save the query as",
             Self::RenameQuery(_) => "rename the saved query to",
+            Self::Sign(_) => "sign the last round off as",
         }
     }
 
@@ -51,12 +55,13 @@ impl Purpose {
         match self {
             Self::Import(Part::Fabric) => "TOML with [[fabric]] tables, or CSV with columns name, density_kg_m2, …",
             Self::Import(_) => "CSV with columns name, sex, stature_mm, …, or a study.toml",
-            Self::Export(_) => "a new file: NAME.csv, NAME.json or NAME.parquet",
+            Self::Export(_) => "a new file: NAME.csv, NAME.json, NAME.parquet or NAME.xlsx",
             Self::Write(_) => "a folder, which is made where it is missing",
             Self::SaveQuery(_) => {
                 "a name: NAME.sql in the folder queries beside the database; one of that name is replaced"
             }
             Self::RenameQuery(_) => "a name that no saved query has",
+            Self::Sign(_) => "your name; a later signature takes its place",
         }
     }
 
@@ -66,7 +71,7 @@ impl Purpose {
         match self {
             Self::Import(Part::Fabric) => "reading…",
             Self::Import(_) => "reading, and building each body…",
-            Self::Export(_) | Self::Write(_) | Self::SaveQuery(_) | Self::RenameQuery(_) => "writing…",
+            Self::Export(_) | Self::Write(_) | Self::SaveQuery(_) | Self::RenameQuery(_) | Self::Sign(_) => "writing…",
         }
     }
 
@@ -75,9 +80,11 @@ impl Purpose {
     pub fn keys(&self) -> &'static str {
         match self {
             Self::Import(_) => " ↵ import all or none  Tab complete  Esc cancel ",
-            Self::Export(_) | Self::Write(_) => " ↵ write  Tab complete  Esc cancel ",
+            Self::Export(_) => " ↵ write  Tab completes, or changes the ending  Esc cancel ",
+            Self::Write(_) => " ↵ write  Tab complete  Esc cancel ",
             Self::SaveQuery(_) => " ↵ save  Esc cancel ",
             Self::RenameQuery(_) => " ↵ rename  Esc cancel ",
+            Self::Sign(_) => " ↵ sign  Esc cancel ",
         }
     }
 }
@@ -104,7 +111,7 @@ impl PathPrompt {
 
     /// True if the prompt is for a name, not for a path.
     fn is_name(&self) -> bool {
-        matches!(self.purpose, Purpose::SaveQuery(_) | Purpose::RenameQuery(_))
+        matches!(self.purpose, Purpose::SaveQuery(_) | Purpose::RenameQuery(_) | Purpose::Sign(_))
     }
 
     /// Handles a key.
@@ -113,7 +120,11 @@ impl PathPrompt {
             return Outcome::Open;
         }
         if event.code == KeyCode::Tab && !self.is_name() {
+            let before = self.text.len();
             self.offered = Candidates::complete(&mut self.text);
+            if matches!(self.purpose, Purpose::Export(_)) && self.offered.is_empty() && self.text.len() == before {
+                next_ending(&mut self.text);
+            }
             return Outcome::Open;
         }
         self.offered = Candidates::default();
@@ -134,8 +145,23 @@ impl PathPrompt {
             Purpose::RenameQuery(name) => {
                 Effect::Query(QueryRequest::Rename(name.clone(), self.text.trim().to_owned()))
             }
+            Purpose::Sign(of) => {
+                let by = self.text.trim().to_owned();
+                Effect::Do(Command::Comment(of.clone(), CommentDeed::Sign(by)))
+            }
             Purpose::Write(files) => Effect::Files(FileTask::Write(path, files.clone())),
         }])
+    }
+}
+
+/// Endings of files for the rows of a query.
+const ENDINGS: [&str; 4] = ["csv", "json", "parquet", "xlsx"];
+
+/// Gives a path with one of these endings the next one.
+fn next_ending(path: &mut String) {
+    let Some((name, ending)) = path.rsplit_once('.') else { return };
+    if let Some(at) = ENDINGS.iter().position(|known| *known == ending) {
+        *path = format!("{name}.{}", ENDINGS[(at + 1) % ENDINGS.len()]);
     }
 }
 
@@ -256,6 +282,22 @@ mod tests {
         check("x", "x", &[]);
         check(".", ".hidden", &[]);
         check("trousers/", "trousers/", &[]);
+    }
+
+    #[test]
+    fn tab_changes_the_ending_of_a_file_for_rows() {
+        let check = |purpose: Purpose, text: &str, expect: &str| {
+            let mut prompt = PathPrompt::new(purpose, text);
+            prompt.key(&KeyEvent::from(KeyCode::Tab));
+            assert_eq!(prompt.text, expect, "{text}");
+        };
+        let rows = || Purpose::Export("SELECT 1".into());
+        check(rows(), "no-such-folder/rows.csv", "no-such-folder/rows.json");
+        check(rows(), "no-such-folder/rows.json", "no-such-folder/rows.parquet");
+        check(rows(), "no-such-folder/rows.xlsx", "no-such-folder/rows.csv");
+        check(rows(), "no-such-folder/rows", "no-such-folder/rows");
+        check(rows(), "no-such-folder/rows.txt", "no-such-folder/rows.txt");
+        check(Purpose::Import(Part::Subject), "no-such-folder/rows.csv", "no-such-folder/rows.csv");
     }
 
     #[test]

@@ -15,7 +15,7 @@ use crate::widgets::lists::first_shown;
 use crate::widgets::text::{self, left, shortened};
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::{edit, is_ctrl_c, moved};
-use engine::{NewStudy, PatternSource, Wearable};
+use engine::{NewOutfit, NewStudy, PatternSource, Wearable};
 use fit::Simulator;
 
 /// Columns for the names of the parts.
@@ -32,6 +32,10 @@ pub enum FormLine {
     Simulator(usize),
     /// Size of a style by index, chosen or not.
     Size(usize),
+    /// Outfit of another study by index, chosen or not.
+    Outfit(usize),
+    /// Outfit of one's own, typed.
+    OwnOutfit,
     /// Subject by index, chosen or not.
     Subject(usize),
 }
@@ -45,6 +49,7 @@ impl FormLine {
             Self::Fabric => "fabric",
             Self::Simulator(_) => "simulators",
             Self::Size(_) => "styles and sizes",
+            Self::Outfit(_) | Self::OwnOutfit => "outfits",
             Self::Subject(_) => "subjects",
         }
     }
@@ -76,6 +81,10 @@ pub struct StudyForm {
     pub simulators: Vec<(Simulator, bool)>,
     /// Sizes, each chosen or not.
     pub sizes: Vec<(Wearable, bool)>,
+    /// Outfits of other studies whose styles are there, each chosen or not.
+    pub outfits: Vec<(NewOutfit, bool)>,
+    /// Outfit of one's own, as typed.
+    pub own_outfit: String,
     /// Subjects, each chosen or not.
     pub subjects: Vec<(String, bool)>,
     /// Filter of the sizes or subjects.
@@ -93,10 +102,21 @@ impl StudyForm {
         let mut lines = vec![FormLine::Name];
         lines.extend((0..self.sizes.len()).map(FormLine::Size));
         lines.extend((0..self.subjects.len()).map(FormLine::Subject));
+        if self.has_layers() {
+            lines.extend((0..self.outfits.len()).map(FormLine::Outfit));
+            lines.push(FormLine::OwnOutfit);
+        }
         lines.extend((0..self.simulators.len()).map(FormLine::Simulator));
         lines.push(FormLine::Fabric);
         lines.retain(|line| self.passes(*line));
         lines
+    }
+
+    /// True if an outfit is possible: one is known, or sizes of two styles are chosen.
+    fn has_layers(&self) -> bool {
+        let mut chosen = self.sizes.iter().filter(|(_, is_chosen)| *is_chosen).map(|(size, _)| &size.style);
+        let first = chosen.next();
+        !self.outfits.is_empty() || chosen.any(|style| Some(style) != first)
     }
 
     /// True if a line passes the filter of its part.
@@ -128,20 +148,62 @@ impl StudyForm {
     #[must_use]
     pub fn choice(&self, line: FormLine) -> Option<bool> {
         match line {
-            FormLine::Name | FormLine::Fabric => None,
+            FormLine::Name | FormLine::Fabric | FormLine::OwnOutfit => None,
             FormLine::Simulator(k) => Some(self.simulators[k].1),
             FormLine::Size(k) => Some(self.sizes[k].1),
+            FormLine::Outfit(k) => Some(self.outfits[k].1),
             FormLine::Subject(k) => Some(self.subjects[k].1),
         }
     }
 
     fn choose(&mut self, line: FormLine, is_chosen: bool) {
         match line {
-            FormLine::Name | FormLine::Fabric => {}
+            FormLine::Name | FormLine::Fabric | FormLine::OwnOutfit => {}
             FormLine::Simulator(k) => self.simulators[k].1 = is_chosen,
             FormLine::Size(k) => self.sizes[k].1 = is_chosen,
+            FormLine::Outfit(k) => {
+                self.outfits[k].1 = is_chosen;
+                if is_chosen {
+                    self.choose_layers(k);
+                }
+            }
             FormLine::Subject(k) => self.subjects[k].1 = is_chosen,
         }
+    }
+
+    /// Chooses all sizes of those styles of an outfit of which none is chosen.
+    fn choose_layers(&mut self, k: usize) {
+        for layer in &self.outfits[k].0.layers {
+            if !self.sizes.iter().any(|(size, is_chosen)| *is_chosen && size.style == *layer) {
+                let own = self.sizes.iter_mut().filter(|(size, _)| size.style == *layer);
+                own.for_each(|(_, is_chosen)| *is_chosen = true);
+            }
+        }
+    }
+
+    /// Chosen outfits and the typed one.
+    ///
+    /// # Errors
+    /// What is wrong with the typed one.
+    pub fn worn_over(&self) -> Result<Vec<NewOutfit>, String> {
+        let mut all: Vec<NewOutfit> = chosen(&self.outfits);
+        if !self.own_outfit.trim().is_empty() {
+            all.push(self.own_outfit.trim().parse()?);
+        }
+        Ok(all)
+    }
+
+    /// Number of simulations of layers of outfits, which only FEM-GS drapes.
+    ///
+    /// # Errors
+    /// What is wrong with an outfit.
+    pub fn layer_jobs(&self) -> Result<usize, String> {
+        let sizes = chosen(&self.sizes);
+        let sizes: Vec<(&str, &str)> = sizes.iter().map(|size| (size.style.as_str(), size.size.as_str())).collect();
+        let layers = |outfit: &NewOutfit| Ok(outfit.layers.len() * outfit.sizes(&sizes)?.len());
+        let layers: usize = self.worn_over()?.iter().map(layers).sum::<Result<_, String>>()?;
+        let is_fem = self.simulators.contains(&(Simulator::Fem, true));
+        Ok(if is_fem { layers * self.jobs()[0] } else { 0 })
     }
 
     /// Handles a key.
@@ -158,8 +220,8 @@ impl StudyForm {
             return Outcome::Open;
         }
         let (line, lines) = (self.line(), self.lines().len());
-        // In the line of the name, letters are typed, and Ctrl-U empties it.
-        let is_typed = line == FormLine::Name;
+        // In a line that is typed, letters do not move, and Ctrl-U empties it.
+        let is_typed = matches!(line, FormLine::Name | FormLine::OwnOutfit);
         let empties = is_typed && event.code == KeyCode::Char('u');
         if let Some(next) = moved(self.at, lines, event, !is_typed).filter(|_| !empties) {
             self.at = next;
@@ -170,7 +232,7 @@ impl StudyForm {
             KeyCode::Enter | KeyCode::Tab => self.go_to_section(1),
             KeyCode::BackTab => self.go_to_section(-1),
             _ if is_typed => {
-                edit(&mut self.name, event);
+                edit(if line == FormLine::Name { &mut self.name } else { &mut self.own_outfit }, event);
             }
             KeyCode::Char('/') if matches!(line, FormLine::Size(_) | FormLine::Subject(_)) => {
                 self.filter = Filter { section: line.section(), text: String::new(), is_typed: true };
@@ -225,7 +287,10 @@ impl StudyForm {
             _ if self.filter.is_typed => " type what the lines contain  ↵ keep  Esc all again ",
             FormLine::Name => " ↵ next part  F5 make it  Esc cancel ",
             FormLine::Fabric => " h l choose  ↵ make it  Esc back ",
-            FormLine::Simulator(_) => " j k  Space choose  a all  ↵ next part  F5 make it  Esc back ",
+            FormLine::OwnOutfit => " NAME=STYLE,STYLE, the inner first; empty = none  ↵ next part  F5 make it ",
+            FormLine::Simulator(_) | FormLine::Outfit(_) => {
+                " j k  Space choose  a all  ↵ next part  F5 make it  Esc back "
+            }
             _ if !self.filter.section.is_empty() => {
                 " j k  Space choose  a all of these  ↵ next part  F5 make it  Esc all again "
             }
@@ -272,9 +337,15 @@ impl StudyForm {
             self.sending.problem = Some(problem.to_owned());
             return Outcome::Open;
         }
-        fn chosen<T: Clone>(all: &[(T, bool)]) -> Vec<T> {
-            all.iter().filter(|(_, is_chosen)| *is_chosen).map(|(one, _)| one.clone()).collect()
-        }
+        let outfits = match self.layer_jobs().and_then(|_| self.worn_over()) {
+            Ok(outfits) => outfits,
+            Err(problem) => {
+                self.filter = Filter::default();
+                self.at = self.lines().iter().position(|line| *line == FormLine::OwnOutfit).unwrap_or(0);
+                self.sending.problem = Some(problem);
+                return Outcome::Open;
+            }
+        };
         let new = NewStudy {
             name: self.name.trim().to_owned(),
             folder: self.folder.clone(),
@@ -283,23 +354,32 @@ impl StudyForm {
             fabric: self.fabrics[self.fabric].clone(),
             simulators: chosen(&self.simulators),
             fit: None,
+            outfits,
         };
         self.sending.start();
         Outcome::Sent(vec![Effect::Files(FileTask::CreateStudy(new))])
     }
 }
 
+/// Those of a list that are chosen.
+fn chosen<T: Clone>(all: &[(T, bool)]) -> Vec<T> {
+    all.iter().filter(|(_, is_chosen)| *is_chosen).map(|(one, _)| one.clone()).collect()
+}
+
+/// Draws the form.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StudyForm, theme: Theme) {
     let width = area.width.min(90);
     let columns = usize::from(width.saturating_sub(2));
     let [subjects, sizes, simulators] = form.jobs();
     let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    let layers = form.layer_jobs().unwrap_or(0);
+    let worn_over = if layers > 0 { format!(" + {layers} of outfits") } else { String::new() };
     let count = format!(
-        " {} × {} × {} = {}",
+        " {} × {} × {}{worn_over} = {}",
         counted(subjects, "subject"),
         counted(sizes, "size"),
         counted(simulators, "simulator"),
-        counted(subjects * sizes * simulators, "simulation")
+        counted(subjects * sizes * simulators + layers, "simulation")
     );
     let folder = format!(" into {}", form.folder.join(form.name.trim()).display());
     let mut below = vec![
@@ -347,6 +427,13 @@ fn line(form: &StudyForm, k: usize, is_first_shown: bool, columns: usize, theme:
                 if matches!(wearable.source, PatternSource::Drafted(_)) { "  drafted by the program" } else { "" };
             format!("{} {}{origin}", wearable.style, wearable.size)
         }
+        FormLine::Outfit(k) => {
+            let outfit = &form.outfits[k].0;
+            format!("{}: {}", outfit.name, outfit.layers.join(" under "))
+        }
+        FormLine::OwnOutfit if is_focused => format!("{}▏", form.own_outfit),
+        FormLine::OwnOutfit if form.own_outfit.is_empty() => "one of your own".to_owned(),
+        FormLine::OwnOutfit => form.own_outfit.clone(),
         FormLine::Subject(k) => form.subjects[k].0.clone(),
     };
     let text = shortened(&format!("{mark}{value}"), columns.saturating_sub(SECTION + 2));

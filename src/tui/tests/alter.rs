@@ -163,7 +163,9 @@ fn the_size_to_wear_is_changed_first_and_keys_step_through_sizes_and_subjects() 
 
 #[test]
 fn it_closes_to_where_one_was() {
-    for (keys, view) in [("0", View::Card), ("0<Tab>", View::Section), ("0<S-Tab>", View::Sizes)] {
+    for (keys, view) in
+        [("0", View::Card), ("0<Tab>", View::Section), ("0<Tab><Tab>", View::Sizes), ("0<S-Tab>", View::Comments)]
+    {
         for back in ["<Esc>", "q", "<Tab>"] {
             let mut bench = Bench::example(80, 24);
             bench.press(keys).press("a").press(back);

@@ -12,6 +12,7 @@ use sim::{Fabric, Step};
 use spec::bodies::{Figures, Girths, Measurements, Sex};
 use spec::patterns::{Model, drafted};
 use spec::{Change, MEASUREMENTS};
+use store::comments::{Comment, Remark, Round, Severity, Side, State};
 use store::files::SourceFile;
 use store::{
     Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, RecommendationRow, SizeKey,
@@ -142,6 +143,7 @@ pub fn snapshot() -> Snapshot {
         subjects: subjects(),
         fabrics: fabrics(),
         sizes: sizes(),
+        outfits: vec![],
         studies: vec![study],
         study: 0,
         runners: vec![],
@@ -153,6 +155,61 @@ pub fn snapshot() -> Snapshot {
         compared: vec![],
         recommendations: vec![],
         worn: None,
+        comments: comments(),
+        rounds: vec![round("i", 2, None), round("ii", 1, Some("ann"))],
+    }
+}
+
+/// Comments of two rounds of the T-shirt on subject i, and of one on ii.
+fn comments() -> Vec<Comment> {
+    let remark = |side, place: &str, said: &str, severity, action: &str, quantity: Option<&str>| Remark {
+        side,
+        place: place.into(),
+        said: said.into(),
+        severity,
+        cause: if quantity.is_some() { "pattern too narrow there for this figure" } else { "" }.into(),
+        action: action.into(),
+        quantity: quantity.map(str::to_owned),
+    };
+    let comment =
+        |subject: &str, (round, number): (i64, i64), remark: Remark, (status, owner): (State, &str)| Comment {
+            garment: "tshirt".into(),
+            subject: subject.into(),
+            size: "M".into(),
+            round,
+            number,
+            is_worded: remark.quantity.is_none(),
+            remark,
+            status,
+            met_in: (status == State::Met).then_some(2),
+            owner: owner.into(),
+            signed_by: (subject == "ii").then(|| "ann".into()),
+        };
+    let chest = remark(
+        Side::Front,
+        "chest",
+        "chest tight by 44 mm",
+        Severity::Major,
+        "chest +44.0 mm (widens front and back under the arm) on front, back",
+        Some("chest tight"),
+    );
+    let hip = remark(Side::Front, "hip", "hip tight by 12 mm", Severity::Minor, "hem +12.0 mm", Some("hip tight"));
+    let neck = remark(Side::Back, "neck", "gapes when the arms are raised", Severity::Critical, "darts", None);
+    vec![
+        comment("i", (1, 1), chest.clone(), (State::Open, "ben")),
+        comment("i", (1, 2), hip, (State::Met, "")),
+        comment("i", (2, 3), neck, (State::Open, "")),
+        comment("ii", (1, 1), chest, (State::Closed, "")),
+    ]
+}
+
+fn round(subject: &str, round: i64, signed_by: Option<&str>) -> Round {
+    Round {
+        garment: "tshirt".into(),
+        subject: subject.into(),
+        round,
+        size: "M".into(),
+        signed_by: signed_by.map(str::to_owned),
     }
 }
 
@@ -291,6 +348,7 @@ pub fn empty() -> Snapshot {
         subjects: vec![],
         fabrics: vec![],
         sizes: vec![],
+        outfits: vec![],
         studies: vec![],
         study: 0,
         runners: vec![],
@@ -302,6 +360,8 @@ pub fn empty() -> Snapshot {
         compared: vec![],
         recommendations: vec![],
         worn: None,
+        comments: vec![],
+        rounds: vec![],
     }
 }
 

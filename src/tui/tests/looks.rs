@@ -170,7 +170,7 @@ fn small_terminals_show_lists_and_none_is_refused() {
             "9a",
             "0",
             "0<Tab>vv",
-            "0<S-Tab>G",
+            "0<Tab><Tab>G",
             "0aG",
             "0adj",
             "3",

@@ -2,12 +2,14 @@
 
 mod alter;
 mod behaviour;
+mod comments;
 mod explanation;
 mod fabrics;
 mod fit;
 mod fixture;
 mod jumps;
 mod looks;
+mod outfits;
 mod protocols;
 mod questions;
 mod styles;
@@ -161,6 +163,7 @@ fn code_of(name: &str) -> KeyCode {
         "PgDn" => KeyCode::PageDown,
         "Left" => KeyCode::Left,
         "Up" => KeyCode::Up,
+        "Down" => KeyCode::Down,
         "F2" => KeyCode::F(2),
         "F5" => KeyCode::F(5),
         "Backspace" => KeyCode::Backspace,

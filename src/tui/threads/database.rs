@@ -3,12 +3,15 @@
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
 
+use crate::messages::comments::{CommentDeed, FittingOf};
 use crate::messages::message::Message;
 use crate::messages::requests::Command;
 use crate::messages::snapshot::{Focus, Snapshot};
 use crate::threads::reading;
 use engine::actions;
+use store::comments::{self, Fitting};
 use store::owner::Watch;
+use store::queue::Interrupted;
 use store::{Status, Store, StudyError, StudyRow, queue};
 use wardrobe::seams::write_seams;
 use wardrobe::{Deed, Mode, Part, Saved, Strictness, StyleGiven, catalogue};
@@ -109,10 +112,25 @@ impl Reader {
         if self.last.as_ref().is_some_and(|last| !last.data.studies.iter().any(is_running)) {
             return Ok(None);
         }
+        if self.store.is_readonly() {
+            self.look_for_interrupted().map_err(|error| error.to_string())?;
+            return Ok(None);
+        }
         let jobs = queue::recover(&mut self.store, &mut self.watch).map_err(|error| error.to_string())?;
         let told =
             |jobs: usize| format!("a run was interrupted: {jobs} of its jobs wait in the queue again, R goes on");
         Ok((jobs > 0).then(|| told(jobs)))
+    }
+
+    /// Has the data read again where a process has ended whose jobs are shown as running: that writes nothing.
+    fn look_for_interrupted(&mut self) -> Result<(), StudyError> {
+        let interrupted = queue::interrupted(&self.store)?;
+        let is_shown = |last: &Reading| {
+            let job = |lost: &Interrupted| last.data.job(lost.job);
+            interrupted.iter().any(|lost| job(lost).is_some_and(|job| job.status == Status::Running))
+        };
+        self.last = self.last.take().filter(|last| !is_shown(last));
+        Ok(())
     }
 
     /// Makes a change. Returns the message about its outcome.
@@ -120,6 +138,7 @@ impl Reader {
         let done = carry_out(&mut self.store, &command).map_err(|error| error.to_string());
         match (command, done) {
             (Command::SaveSeams(style, seams), done) => Message::SeamsSaved(style, seams, done),
+            (Command::Comment(of, CommentDeed::Set(change)), Ok(text)) => Message::Commented(of, change, text),
             (command, done) if command.is_from_form() => Message::Saved(done),
             (_, Ok(text)) => Message::Done(text),
             (_, Err(text)) => Message::Failed(text),
@@ -157,6 +176,7 @@ pub fn carry_out(store: &mut Store, command: &Command) -> Result<String, StudyEr
             write_seams(path, before, after)?;
             Ok(format!("{} is written", path.display()))
         }
+        Command::Comment(of, deed) => commented(store, of, deed),
         Command::Cancel(ids) => Ok(match (actions::cancel(store, ids)?, &ids[..]) {
             (0, [id]) => format!("job {id} had ended already"),
             (_, [id]) => format!("job {id} is cancelled; r queues it again"),
@@ -180,6 +200,29 @@ pub fn carry_out(store: &mut Store, command: &Command) -> Result<String, StudyEr
             Ok(format!("{study} goes on"))
         }
     }
+}
+
+/// Changes the comments of a fitting. Returns a line about it.
+fn commented(store: &mut Store, of: &FittingOf, deed: &CommentDeed) -> Result<String, StudyError> {
+    let FittingOf { study, garment, subject } = of;
+    let fitting = Fitting { study, garment, subject };
+    Ok(match deed {
+        CommentDeed::Add(remark) => {
+            let number = comments::add(store, fitting, remark)?;
+            format!("comment {number} of {garment} on {subject} is added; x closes it")
+        }
+        CommentDeed::Set(change) => {
+            comments::edit(store, fitting, change.number, &change.edit)?;
+            match change.before {
+                Some(_) => format!("comment {} of {garment} on {subject} is changed; u takes it back", change.number),
+                None => format!("comment {} of {garment} on {subject} is as it was", change.number),
+            }
+        }
+        CommentDeed::Sign(by) => {
+            let round = comments::sign(store, fitting, by)?;
+            format!("round {round} of {garment} on {subject} is signed by {by}")
+        }
+    })
 }
 
 /// Adds the styles of a study file; or one style, with proposed seams where none are given; or sizes to a style.

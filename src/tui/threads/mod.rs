@@ -9,6 +9,7 @@ mod pictures;
 mod previews;
 pub mod queries;
 pub mod reading;
+pub mod rounds;
 mod run;
 mod seams;
 mod sections;
@@ -21,6 +22,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 
 use crate::messages::alterations::AlterRequest;
+use crate::messages::comments::RoundRequest;
 use crate::messages::effect::Effect;
 use crate::messages::message::Message;
 use crate::messages::requests::{FileTask, QueryRequest, Target};
@@ -31,7 +33,7 @@ use crate::threads::input::Keyboard;
 use crate::threads::previews::Slot;
 use crate::threads::queries::Canceller;
 use crate::widgets::picture::{PictureEncoder, PictureRequest};
-use store::{JobId, Live, Store, Table};
+use store::{Encoder, JobId, Live, Store};
 
 /// The threads, and the messages from them.
 pub struct Threads {
@@ -45,6 +47,7 @@ pub struct Threads {
     sections: Sender<Vec<JobId>>,
     alterations: Sender<AlterRequest>,
     drapes: Sender<AlterRequest>,
+    rounds: Sender<RoundRequest>,
     seams: Sender<SeamTask>,
     previews: Sender<PreviewRequest>,
     queries: Sender<QueryRequest>,
@@ -65,7 +68,7 @@ impl Threads {
         encoder: Option<PictureEncoder>,
         quickstart: PathBuf,
         reports: PathBuf,
-        parquet: fn(&Table) -> Vec<u8>,
+        encoders: &'static [Encoder],
     ) -> Self {
         let (sender, messages) = mpsc::channel();
         let (path, readonly) = (store.path().to_owned(), store.is_readonly());
@@ -84,12 +87,13 @@ impl Threads {
             sections: serve(&sender, &path, move |path, asked, sender| sections::serve(path, readonly, asked, sender)),
             alterations: serve(&sender, &path, alterations::serve),
             drapes: serve(&sender, &path, alterations::serve),
+            rounds: serve(&sender, &path, rounds::serve),
             seams: serve(&sender, &path, move |path, asked, sender| seams::serve(path, readonly, asked, sender)),
             previews: serve(&sender, &path, move |path, asked, sender| {
                 previews::serve(path, readonly, asked, &slot, sender)
             }),
             queries: serve(&sender, &path, move |path, asked, sender| {
-                queries::serve(path, &cancelled, parquet, asked, sender);
+                queries::serve(path, &cancelled, encoders, asked, sender);
             }),
             files: serve(&sender, &path, move |path, asked, sender| {
                 files::serve(path, readonly, &reports, asked, sender)
@@ -123,6 +127,7 @@ impl Threads {
                 let thread = if request.is_draped { &self.drapes } else { &self.alterations };
                 drop(thread.send(request));
             }
+            Effect::Round(request) => drop(self.rounds.send(request)),
             Effect::Draw(requests) => drop(self.pictures.send(requests)),
             Effect::Query(query) => {
                 self.canceller.reset();

@@ -6,17 +6,20 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender};
 use std::sync::{Arc, OnceLock};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use crate::messages::message::Message;
 use crate::messages::requests::QueryRequest;
 use crate::widgets::result_table::ResultTable;
 use store::files::kind_of;
-use store::{InOrigin, Interrupter, Origin, Store, StudyError, Table, save_query, saved_queries, sql};
+use store::{Encoder, InOrigin, Interrupter, Origin, Store, StudyError, save_query, saved_queries, sql};
 use wardrobe::catalogue;
 
 /// Most rows of an answer on the screen; a file gets all rows.
 const MOST_ROWS: usize = 20_000;
+
+/// Time before the first number of rows of an export is told, and between two of them.
+const SOON: Duration = Duration::from_secs(1);
 
 /// Stops the query of the thread.
 #[derive(Clone, Default)]
@@ -44,7 +47,7 @@ impl Canceller {
 pub fn serve(
     database: &Path,
     canceller: &Canceller,
-    parquet: fn(&Table) -> Vec<u8>,
+    encoders: &[Encoder],
     wanted: &Receiver<QueryRequest>,
     sender: &Sender<Message>,
 ) {
@@ -76,14 +79,23 @@ pub fn serve(
             }
             QueryRequest::Rows(text) => {
                 let answer = store.and_then(|store| {
-                    sql::answer(store, &text, MOST_ROWS, &canceller.is_on).map_err(|error| said(&error))
+                    sql::answer(store, &text, MOST_ROWS, &canceller.is_on, &mut |_| {}).map_err(|error| said(&error))
                 });
                 let table = answer.map(|answer| Box::new(ResultTable::of(answer)));
                 Message::Answered(start.elapsed().as_millis() as u64, table)
             }
             QueryRequest::Export(text, path) => {
-                let rows = store
-                    .and_then(|store| export(store, &text, &path, canceller, parquet).map_err(|error| said(&error)));
+                let mut told = start;
+                let mut so_far = |rows: usize| {
+                    if told.elapsed() >= SOON {
+                        told = Instant::now();
+                        // Fails if the workbench is ending, which the export notices at its end.
+                        let _ = sender.send(Message::Done(format!("{rows} rows so far for {}", path.display())));
+                    }
+                };
+                let rows = store.and_then(|store| {
+                    export(store, &text, &path, canceller, encoders, &mut so_far).map_err(|error| said(&error))
+                });
                 Message::Saved(rows.map(|rows| format!("{rows} rows are in {}", path.display())))
             }
         };
@@ -99,16 +111,18 @@ fn export(
     text: &str,
     path: &Path,
     canceller: &Canceller,
-    parquet: fn(&Table) -> Vec<u8>,
+    encoders: &[Encoder],
+    so_far: &mut dyn FnMut(usize),
 ) -> Result<usize, StudyError> {
-    let is_parquet = kind_of(path, &[("csv", false), ("json", false), ("parquet", true)]).origin(Origin::Sql)?;
-    if !is_parquet {
-        return sql::export_query(store, text, path, &canceller.is_on);
-    }
-    // A Parquet file needs all rows at once.
-    let table = sql::answer(store, text, usize::MAX, &canceller.is_on)?.table;
+    let mut kinds = vec![("csv", None), ("json", None)];
+    kinds.extend(encoders.iter().map(|(ending, encode)| (*ending, Some(*encode))));
+    let Some(encode) = kind_of(path, &kinds).origin(Origin::Sql)? else {
+        return sql::export_query(store, text, path, &canceller.is_on, so_far);
+    };
+    let table = sql::answer(store, text, usize::MAX, &canceller.is_on, so_far)?.table;
+    let bytes = encode(&table).map_err(StudyError::io(path))?;
     let mut file = File::create_new(path).map_err(StudyError::io(path))?;
-    file.write_all(&parquet(&table)).map_err(StudyError::io(path))?;
+    file.write_all(&bytes).map_err(StudyError::io(path))?;
     Ok(table.rows.len())
 }
 
@@ -157,9 +171,12 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let store = Store::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
         let write = |name: &str| {
-            let rows = |table: &Table| table.rows.len().to_string().into_bytes();
-            let path = folder.path().join(name);
-            export(&store, "SELECT 1 AS n UNION SELECT 2", &path, &Canceller::default(), rows)
+            let rows: [Encoder; 1] = [("parquet", |table| Ok(table.rows.len().to_string().into_bytes()))];
+            let (path, canceller) = (folder.path().join(name), Canceller::default());
+            let (mut told, text) = (0, "SELECT 1 AS n UNION SELECT 2");
+            let written = export(&store, text, &path, &canceller, &rows, &mut |rows| told = rows);
+            assert!(written.is_err() || told == 2, "{name}: {told} rows were told");
+            written
         };
         let check = |name: &str, expect: &str| {
             assert_eq!(write(name).expect("written"), 2, "{name}");

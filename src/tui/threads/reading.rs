@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use crate::messages::snapshot::{Compared, Detail, Focus, Snapshot};
 use engine::enqueue;
 use results::{FitCard, GarmentWorn, assessment};
-use store::{JobFilter, JobId, Result, Store, StudyError, now_ms, queue, read};
+use store::queue::Interrupted;
+use store::{JobFilter, JobId, Result, Status, Store, StudyError, comments, now_ms, queue, read};
 use wardrobe::catalogue;
 
 /// Reads the data for a focus.
@@ -18,6 +19,7 @@ pub fn snapshot(store: &Store, focus: &Focus) -> Result<Snapshot> {
     let subjects = catalogue::subjects(store)?;
     let fabrics = catalogue::fabrics(store)?;
     let sizes = catalogue::sizes(store)?;
+    let outfits = read::outfits(store)?;
     let (jobs, ease) = (vec![], vec![]);
     let mut snapshot = Snapshot {
         now_ms: now_ms(),
@@ -25,6 +27,7 @@ pub fn snapshot(store: &Store, focus: &Focus) -> Result<Snapshot> {
         subjects,
         fabrics,
         sizes,
+        outfits,
         studies,
         study,
         runners: vec![],
@@ -36,6 +39,8 @@ pub fn snapshot(store: &Store, focus: &Focus) -> Result<Snapshot> {
         compared: vec![],
         recommendations: vec![],
         worn: None,
+        comments: vec![],
+        rounds: vec![],
     };
     let Some(row) = snapshot.studies.get(study) else { return Ok(snapshot) };
     let garment = row.garments.iter().find(|name| Some(*name) == focus.garment.as_ref()).or(row.garments.first());
@@ -44,13 +49,36 @@ pub fn snapshot(store: &Store, focus: &Focus) -> Result<Snapshot> {
     snapshot.ease = read::ease(store, &row.name)?;
     snapshot.grid = grid;
     snapshot.cloths = read::cloths(store, &snapshot.studies[study].name)?;
+    snapshot.comments = comments::comments(store, &snapshot.studies[study].name)?;
+    snapshot.rounds = comments::last_rounds(store, &snapshot.studies[study].name)?;
     snapshot.runners = queue::runners(store, &snapshot.studies[study].name)?;
     if let Some(job) = focus.job.filter(|id| snapshot.job(*id).is_some()) {
         snapshot.detail = Some(detail(store, job)?);
     }
+    if store.is_readonly() {
+        tell_interrupted(&mut snapshot, &queue::interrupted(store)?);
+    }
     add_compared(store, &mut snapshot, focus)?;
     snapshot.worn = worn(store, &snapshot, focus)?;
     Ok(snapshot)
+}
+
+/// Shows running jobs whose process has ended as queued, with a line about it: where the database may be written, they
+/// are back in the queue.
+pub fn tell_interrupted(snapshot: &mut Snapshot, interrupted: &[Interrupted]) {
+    for lost in interrupted {
+        let Some(job) = snapshot.jobs.iter_mut().find(|job| job.id == lost.job) else { continue };
+        (job.status, job.error, job.progress) = (Status::Queued, Some(lost.to_string()), None);
+        let cells = snapshot.grid.iter_mut().flat_map(|grid| grid.cells.iter_mut().flatten().flatten());
+        for cell in cells.filter(|cell| cell.job == Some(lost.job)) {
+            (cell.status, cell.fraction) = (Some(Status::Queued), None);
+        }
+        if let Some(study) = snapshot.studies.get_mut(snapshot.study) {
+            study.counts[Status::Running as usize] = study.count(Status::Running).saturating_sub(1);
+            study.counts[Status::Queued as usize] = study.count(Status::Queued) + 1;
+        }
+    }
+    snapshot.runners.retain(|runner| !interrupted.iter().any(|lost| lost.process == runner.name));
 }
 
 /// Adapts an earlier reading to another focus on jobs, if nothing was written since.

@@ -134,6 +134,7 @@ impl FitScreen {
                 let end = if movement == Movement::First { sections.first() } else { sections.last() };
                 self.level = end.map(|section| section.level.clone()).or(self.level.take());
             }
+            (View::Comments, _) => self.comments.go(state, movement),
             (View::Sizes, _) => self.row = movement.from(self.row, quantities_shown(state).len()),
         }
     }

@@ -38,6 +38,9 @@ const NAMES: [&str; 11] = [
     "drag lines",
 ];
 
+/// Names of the columns of comments, as in the glossary.
+const COMMENT_NAMES: [&str; 4] = ["severity", "round", "owner", "size"];
+
 impl Draw for FitScreen {
     fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
         if self.alter.is_open {
@@ -52,6 +55,7 @@ impl Draw for FitScreen {
                 View::Card => self.draw_card(frame, area, state, focused),
                 View::Section => self.draw_section(frame, area, state, focused),
                 View::Sizes => self.draw_sizes(frame, area, state, focused),
+                View::Comments => self.comments.draw(frame, area, state, focused),
             }
         }
     }
@@ -66,12 +70,17 @@ impl Draw for FitScreen {
                 View::Card => self.card_targets(state, inner),
                 View::Section => vec![jump::pane(area, part as usize)],
                 View::Sizes => jump::rows(part as usize, inner, 1, quantities_shown(state).len(), self.row),
+                View::Comments => self.comments.targets(state, area),
             }
         };
         self.parts(area, state).into_iter().flat_map(targets).collect()
     }
 
     fn explained(&self, state: &State) -> Selected {
+        if self.view == View::Comments {
+            let what = self.comments.selected(state).map_or(String::new(), |one| one.remark.said.clone());
+            return Selected::new(what, &["comment"], &COMMENT_NAMES);
+        }
         let quantities = quantities_shown(state);
         let quantity = quantities.get(self.row).filter(|_| self.view == View::Sizes);
         let (what, name) = match quantity {
@@ -93,21 +102,22 @@ impl FitScreen {
     fn parts(&self, area: Rect, state: &State) -> Vec<(View, Rect)> {
         let view = self.view;
         if !has_drape(state) {
-            return vec![(View::Card, area)];
+            return vec![(if view == View::Comments { view } else { View::Card }, area)];
         }
         if area.width < WIDE {
             return vec![(view, area)];
         }
+        // What is below the card, or in its place.
+        let other = if view == View::Comments { view } else { View::Sizes };
         let [left, right] = beside(area);
         let section = (View::Section, right);
         if area.height >= TALL {
             let lines =
                 self.card_lines(state, usize::from(left.width - 2), usize::from(area.height), false).len() as u16;
             let [card, sizes] = Layout::vertical([Constraint::Length(lines + 2), Constraint::Fill(1)]).areas(left);
-            return vec![section, (View::Card, card), (View::Sizes, sizes)];
+            return vec![section, (View::Card, card), (other, sizes)];
         }
-        let left_view = if view == View::Sizes { View::Sizes } else { View::Card };
-        vec![section, (left_view, left)]
+        vec![section, (if view == other { other } else { View::Card }, left)]
     }
 
     /// Number of lines of the alteration that do not fit.

@@ -1,10 +1,12 @@
 //! Screen 0: the fit of a garment on a subject. It has a fit card, a cross section of all sizes, the sizes side by
-//! side, and the alteration that makes a size fit.
+//! side, the comments of the fitting, and the alteration that makes a size fit.
 
 pub mod actions;
 mod alteration;
 mod altering;
 mod card;
+mod comment_list;
+pub mod comments;
 mod draw;
 mod quantities;
 mod section;
@@ -20,14 +22,13 @@ use crate::screens::page::{Copied, Page};
 use crate::screens::state::State;
 
 /// Keys with their meanings; `next` is the part that Tab leads to.
-const fn hints(next: &'static str) -> [(&'static str, &'static str); 8] {
+const fn hints(next: &'static str) -> [(&'static str, &'static str); 7] {
     [
         ("Tab", next),
         ("v", "level"),
         ("a", "alter"),
+        ("m", "comments"),
         ("h l", "subject"),
-        ("y", "copy"),
-        ("R", "run"),
         ("?", "help"),
         (":", "command"),
     ]
@@ -41,6 +42,19 @@ const ALTER_HINTS: [(&str, &str); 8] = [
     ("h l", "subject"),
     ("y", "copy"),
     ("Esc", "back"),
+    ("?", "help"),
+    (":", "command"),
+];
+
+/// Keys with their meanings while the comments have the focus.
+const COMMENT_HINTS: [(&str, &str); 9] = [
+    ("↵", "edit"),
+    ("i", "add"),
+    ("x", "close"),
+    ("u", "undo"),
+    ("b", "round"),
+    ("S", "sign"),
+    ("z", "all"),
     ("?", "help"),
     (":", "command"),
 ];
@@ -65,6 +79,7 @@ impl Page for FitScreen {
         match self.view {
             _ if self.alter.is_open => self.alter.command(state).map(|text| Copied { name: "the command", text }),
             View::Sizes => actions::size_table(state).map(|text| Copied { name: "the comparison of sizes", text }),
+            View::Comments => self.comments.table(state).map(|text| Copied { name: "the comments", text }),
             View::Card | View::Section => actions::card_table(state).map(|text| Copied { name: "the fit card", text }),
         }
     }
@@ -85,7 +100,7 @@ impl Page for FitScreen {
             Action::WriteChange => self.alter.write(state),
             Action::LargerSize => return Some(self.alter.step_size(state, 1)),
             Action::SmallerSize => return Some(self.alter.step_size(state, -1)),
-            _ => return None,
+            _ => return self.act_on_comments(state, action),
         }
         Some(vec![])
     }
@@ -99,11 +114,12 @@ impl Page for FitScreen {
     }
 
     fn hints(&self, state: &State) -> Option<&'static [(&'static str, &'static str)]> {
-        let hints = match self.view {
+        let hints: &[_] = match self.view {
             _ if self.alter.is_open => &ALTER_HINTS,
             View::Card => const { &hints("section") },
             View::Section => const { &hints("sizes") },
-            View::Sizes => const { &hints("card") },
+            View::Sizes => const { &hints("comments") },
+            View::Comments => &COMMENT_HINTS,
         };
         (state.filter().is_empty() && !state.is_first_start()).then_some(hints)
     }

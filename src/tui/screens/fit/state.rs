@@ -2,6 +2,7 @@
 
 use crate::messages::alterations::AlterRequest;
 use crate::messages::answered::Answered;
+use crate::messages::comments::{Change, FittingOf};
 use advice::Alteration;
 use results::CrossSection;
 use store::JobId;
@@ -16,11 +17,13 @@ pub enum View {
     Section,
     /// The sizes side by side.
     Sizes,
+    /// The comments of the fitting.
+    Comments,
 }
 
 impl View {
     /// All parts, in the order in which Tab goes through them.
-    pub const ALL: [Self; 3] = [Self::Card, Self::Section, Self::Sizes];
+    pub const ALL: [Self; 4] = [Self::Card, Self::Section, Self::Sizes, Self::Comments];
 }
 
 /// Cross sections of results at all levels, or the reason why there are none.
@@ -53,6 +56,17 @@ pub struct Alter {
     pub down: usize,
 }
 
+/// The comments of fittings.
+#[derive(Debug, Default)]
+pub struct Comments {
+    /// True to list those of all fittings of the study.
+    pub is_whole: bool,
+    /// Garment, subject and number of the selected comment; `None` for the first one.
+    pub chosen: Option<(String, String, i64)>,
+    /// Changes that can be taken back, the latest last.
+    pub changes: Vec<(FittingOf, Change)>,
+}
+
 /// The Fit screen.
 #[derive(Default)]
 pub struct FitScreen {
@@ -68,4 +82,6 @@ pub struct FitScreen {
     pub cut: Option<Answered<Vec<JobId>, Vec<CrossSection>>>,
     /// Alteration of a size.
     pub alter: Alter,
+    /// Comments of fittings.
+    pub comments: Comments,
 }

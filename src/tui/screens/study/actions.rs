@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::messages::requests::Target;
-use crate::messages::snapshot::Place;
+use crate::messages::snapshot::{Place, Snapshot};
 use crate::overlays::Overlay;
 use crate::overlays::explanation::Selected;
 use crate::overlays::form_frame::Sending;
@@ -15,7 +15,7 @@ use crate::screens::movement::{Movement, stepped};
 use crate::screens::state::State;
 use crate::widgets::text;
 use crate::widgets::theme::{fit_glyph, glyph};
-use engine::wearables;
+use engine::{NewOutfit, wearables};
 use sim::fabric::USUAL as USUAL_FABRIC;
 use store::{Cell, FitCell, JobId, Status};
 
@@ -150,12 +150,29 @@ pub fn new_study(state: &mut State) {
         fabrics,
         simulators: spec::SIMULATORS.map(|simulator| (simulator, true)).to_vec(),
         sizes: wearables(&data.sizes).into_iter().map(|wearable| (wearable, false)).collect(),
+        outfits: outfits(data).into_iter().map(|outfit| (outfit, false)).collect(),
+        own_outfit: String::new(),
         subjects: data.subjects.iter().map(|row| (row.name.clone(), false)).collect(),
         filter: Filter::default(),
         at: 0,
         sending: Sending::default(),
     };
     state.overlay = Some(Overlay::StudyForm(Box::new(form)));
+}
+
+/// Outfits of all studies, by style: each once, without those of styles that cannot be chosen.
+fn outfits(data: &Snapshot) -> Vec<NewOutfit> {
+    let known = wearables(&data.sizes);
+    let mut outfits: Vec<NewOutfit> = vec![];
+    for row in &data.outfits {
+        let layers = row.layers.iter().map(|(_, style)| style.clone()).collect();
+        let outfit = NewOutfit { name: row.name.clone(), layers };
+        let is_known = |layer: &String| known.iter().any(|size| size.style == *layer);
+        if outfit.layers.iter().all(is_known) && !outfits.contains(&outfit) {
+            outfits.push(outfit);
+        }
+    }
+    outfits
 }
 
 /// Shows a new study; its form shows an error instead.

@@ -9,7 +9,41 @@ use crate::screens::catalogue::{self, may_change};
 use crate::screens::movement::{Movement, stepped};
 use crate::screens::state::State;
 use crate::screens::styles::state::{StylesScreen, TableLine};
+use store::OutfitRow;
 use wardrobe::{Part, SizeRow};
+
+/// Outfits of which a style is a layer, those of the open study first.
+fn outfits_of<'a>(state: &'a State, style: &str) -> Vec<&'a OutfitRow> {
+    let outfits = state.data.iter().flat_map(|data| &data.outfits);
+    let is_layer = |outfit: &&OutfitRow| outfit.layers.iter().any(|(_, other)| other == style);
+    let mut outfits: Vec<&OutfitRow> = outfits.filter(is_layer).collect();
+    outfits.sort_by_key(|outfit| state.study().is_none_or(|study| study.name != outfit.study));
+    outfits
+}
+
+/// Mark of a style in lists, whole and short: its first outfit, with its place among the layers, the inmost 1. Empty for
+/// a style of no outfit.
+#[must_use]
+pub fn outfit_marks(state: &State, style: &str) -> [String; 2] {
+    let outfits = outfits_of(state, style);
+    let Some(first) = outfits.first() else { return Default::default() };
+    let layer = first.layers.iter().position(|(_, other)| other == style).map_or(0, |layer| layer + 1);
+    let (name, layers) = (&first.name, first.layers.len());
+    let more = if outfits.len() > 1 { format!(" and {} more", outfits.len() - 1) } else { String::new() };
+    [format!("layer {layer} of {layers} of {name}{more}"), format!("{layer}/{layers} {name}{more}")]
+}
+
+/// Outfits of a style in words, the inmost layer first.
+#[must_use]
+pub fn outfit_lines(state: &State, style: &str) -> Vec<String> {
+    let line = |outfit: &OutfitRow| {
+        let layers: Vec<&str> = outfit.layers.iter().map(|(_, style)| style.as_str()).collect();
+        let is_open = state.study().is_some_and(|study| study.name == outfit.study);
+        let study = if is_open { String::new() } else { format!(" (study {})", outfit.study) };
+        format!("outfit {}: {}{study}", outfit.name, layers.join(" under "))
+    };
+    outfits_of(state, style).into_iter().map(line).collect()
+}
 
 impl StylesScreen {
     /// Sizes that pass the filter.
@@ -18,8 +52,9 @@ impl StylesScreen {
         let Some(data) = &state.data else { return vec![] };
         let filter = state.filter_of(Screen::Styles);
         let words = |row: &SizeRow| {
-            let marks = self.marks_of(state, row).concat();
-            format!("{marks} {} {} {} {}", row.style, row.size, revisions(row), row.pattern_file).to_lowercase()
+            let (marks, outfits) = (self.marks_of(state, row).concat(), outfit_lines(state, &row.style).join(" "));
+            format!("{marks} {} {} {} {} {outfits}", row.style, row.size, revisions(row), row.pattern_file)
+                .to_lowercase()
         };
         data.sizes.iter().filter(|row| words(row).contains(&filter)).collect()
     }

@@ -11,7 +11,7 @@ use crate::overlays::explanation::Selected;
 use crate::screens::page::Draw;
 use crate::screens::picture_pane::actions::requests;
 use crate::screens::state::State;
-use crate::screens::styles::actions::revisions;
+use crate::screens::styles::actions::{outfit_lines, outfit_marks, revisions};
 use crate::screens::styles::pieces::{self, letter};
 use crate::screens::styles::state::{EdgeAt, StylesScreen, TableLine};
 use crate::widgets::jump::{self, Goal, Target};
@@ -30,6 +30,8 @@ pub const HEADINGS: [&str; 8] = ["seam", "a mm", "ease", "ratio", "sure", "rev",
 
 /// Least columns of a table with names of seams and both lengths.
 const FULL: usize = 66;
+/// Fewest columns for the file of a size beside its outfit.
+const LEAST_FILE: usize = 8;
 /// Columns for the name of a seam in such a table, and for all but the seam's edges.
 const NAME: usize = 14;
 const FIXED: usize = 3 + NAME + 1 + 2 * 8 + 2 * 6 + 5;
@@ -118,7 +120,8 @@ impl StylesScreen {
     fn line_targets(&self, state: &State, layout: &SizeLayout, area: Rect) -> Vec<Target> {
         let items = layout.lines();
         let at = self.line.min(items.len().saturating_sub(1));
-        let mut targets = jump::rows(1, area, 1, items.len(), at);
+        let head = 1 + self.outfit_lines(state, area.width, area.height).len();
+        let mut targets = jump::rows(1, area, head, items.len(), at);
         let below = match items.get(at) {
             Some(TableLine::Question(_)) => {
                 item_lines(state, layout, items[at], usize::from(area.width), true).0.len().saturating_sub(1) as u16
@@ -195,8 +198,16 @@ impl StylesScreen {
         let [used, edited, unsure] = self.marks_of(state, row);
         let (style, size) = (left(&row.style, names[0]), left(&row.size, names[1]));
         let start = format!("{used}{edited}{style} {size} {} {unsure}", left(&revisions(row), 4));
-        let file = shortened(&row.pattern_file, width.saturating_sub(text::width(&start)));
-        shortened(&format!("{start}{file}"), width)
+        let room = width.saturating_sub(text::width(&start));
+        let [whole, short] = outfit_marks(state, &row.style);
+        let fits = |mark: &String| text::width(mark) + 2 + LEAST_FILE <= room;
+        // The file gives way to the outfit, which is to be seen in the list.
+        let end = match [&whole, &short].into_iter().find(|mark| fits(mark)) {
+            _ if whole.is_empty() => shortened(&row.pattern_file, room),
+            Some(mark) => format!("{}  {mark}", shortened(&row.pattern_file, room - text::width(mark) - 2)),
+            None => left(&short, room).trim_end().to_owned(),
+        };
+        shortened(&(start + &end), width)
     }
 
     fn draw_table(&self, frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
@@ -253,11 +264,13 @@ impl StylesScreen {
 
     /// Lines of the table: seams, questions, measurements, with the selected line.
     fn table(&self, state: &State, layout: &SizeLayout, width: u16, height: u16) -> Vec<Line<'static>> {
-        let (width, height) = (usize::from(width), usize::from(height).saturating_sub(1));
+        let worn = self.outfit_lines(state, width, height);
+        let (width, height) = (usize::from(width), usize::from(height).saturating_sub(1 + worn.len()));
         let items = layout.lines();
         let at = self.line.min(items.len().saturating_sub(1));
         let first = first_shown(at, items.len(), height);
-        let mut lines = vec![Line::styled(head(width), state.theme.dim())];
+        let mut lines: Vec<Line<'_>> = worn.iter().map(|line| Line::styled(line.clone(), state.theme.busy())).collect();
+        lines.push(Line::styled(head(width), state.theme.dim()));
         for (k, item) in items.iter().enumerate().skip(first) {
             // If the selected edge is in no seam, the selected line is that of another edge.
             let is_selected = k == at
@@ -275,8 +288,14 @@ impl StylesScreen {
                 });
             }
         }
-        lines.truncate(height + 1);
+        lines.truncate(worn.len() + height + 1);
         lines
+    }
+
+    /// Lines about the outfits of the selected style that fit above a table of some rows: at most a fourth of them.
+    fn outfit_lines(&self, state: &State, columns: u16, rows: u16) -> Vec<String> {
+        let told = self.size_row(state).map_or(vec![], |row| outfit_lines(state, &row.style));
+        told.iter().flat_map(|line| wrapped(line, usize::from(columns))).take(usize::from(rows / 4)).collect()
     }
 }
 
