@@ -24,7 +24,7 @@ pub use colour::{ColourMap, Rgb, Scale};
 pub use lettering::{Cell, contact_sheet, draw_legend, from_all_sides};
 pub use scene::{Layer, Material, Paint, Print, Scene, Values};
 pub use shade::{cutout, render};
-pub use svg::rasterise_svg;
+pub use svg::{lacking_letters, rasterise_svg};
 pub use texture::{Mapping, Texture, texture_coordinates};
 pub use weave::Weave;
 

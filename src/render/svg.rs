@@ -3,7 +3,8 @@
 use super::RenderError;
 use image::RgbaImage;
 use resvg::usvg::{self, fontdb};
-use std::sync::{Arc, OnceLock};
+use std::collections::BTreeSet;
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// Fonts that drawings may use: DejaVu Sans, regular and bold.
 fn fonts() -> Arc<fontdb::Database> {
@@ -18,12 +19,41 @@ fn fonts() -> Arc<fontdb::Database> {
     FONTS.get_or_init(load).clone()
 }
 
+/// Letters of drawings that the embedded fonts lack.
+static LACKING: Mutex<BTreeSet<char>> = Mutex::new(BTreeSet::new());
+
+fn lock(letters: &Mutex<BTreeSet<char>>) -> MutexGuard<'_, BTreeSet<char>> {
+    letters.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Letters that stand as empty boxes in what this process has rasterised, in the order of their code points: the embedded
+/// fonts have none of Chinese, Japanese and Korean.
+#[must_use]
+pub fn lacking_letters() -> Vec<char> {
+    lock(&LACKING).iter().copied().collect()
+}
+
 /// Rasterises an SVG drawing at `scale` pixels per unit, on a transparent ground.
 ///
 /// # Errors
 /// [`RenderError::Svg`] where the text is no SVG, [`RenderError::Size`] where the drawing has no size or is too large.
 pub fn rasterise_svg(svg: &str, scale: f32) -> Result<RgbaImage, RenderError> {
-    let options = usvg::Options { fontdb: fonts(), font_family: "DejaVu Sans".into(), ..Default::default() };
+    let fallback = usvg::FontResolver::default_fallback_selector();
+    let options = usvg::Options {
+        fontdb: fonts(),
+        font_family: "DejaVu Sans".into(),
+        font_resolver: usvg::FontResolver {
+            select_font: usvg::FontResolver::default_font_selector(),
+            select_fallback: Box::new(move |letter, used, fonts| {
+                let found = fallback(letter, used, fonts);
+                if found.is_none() {
+                    lock(&LACKING).insert(letter);
+                }
+                found
+            }),
+        },
+        ..Default::default()
+    };
     let tree = usvg::Tree::from_str(svg, &options).map_err(|e| RenderError::Svg(e.to_string()))?;
     let pixels = |length: f32| (length * scale).ceil() as u32;
     let (width, height) = (pixels(tree.size().width()), pixels(tree.size().height()));

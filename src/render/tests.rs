@@ -253,6 +253,14 @@ fn broken_meshes_and_sizes_are_refused() {
     assert_eq!(render(&empty, &camera, 5, 7).unwrap().dimensions(), (5, 7));
     assert!(contact_sheet("none", &[], 4).is_err());
     assert!(rasterise_svg("<p>", 1.0).is_err());
+    // What the embedded fonts lack is told.
+    let letters = "<svg xmlns='http://www.w3.org/2000/svg' width='40' height='20'><text y='15'>a\u{e9}\u{439}\u{7532}</text></svg>";
+    rasterise_svg(letters, 1.0).expect("a drawing");
+    let lacking = lacking_letters();
+    assert_eq!(
+        ['a', '\u{e9}', '\u{439}', '\u{7532}'].map(|letter| lacking.contains(&letter)),
+        [false, false, false, true]
+    );
 }
 
 #[test]
