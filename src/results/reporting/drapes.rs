@@ -2,7 +2,7 @@
 
 use crate::assessment::GarmentWorn;
 use crate::picture::{self, Map};
-use crate::reporting::quoted;
+use crate::reporting::{Part, Tell, quoted};
 use engine::stages::Model;
 use fit::on_body::sites;
 use geom::V3;
@@ -17,9 +17,11 @@ use wardrobe::catalogue;
 const MAPS: [Map; 4] = [Map::Stretch, Map::Tension, Map::Pressure, Map::Gap];
 
 /// All drapes of a study, marked where they are in the size to wear.
-pub(super) fn drapes(store: &Store, jobs: &[JobRow], worn: &[GarmentWorn]) -> Result<Drapes> {
+pub(super) fn drapes(store: &Store, jobs: &[JobRow], worn: &[GarmentWorn], tell: Tell<'_>) -> Result<Drapes> {
     let mut all = Drapes::default();
-    for job in jobs.iter().filter(|job| job.status.has_result() && job.repeat == 1) {
+    let shown: Vec<&JobRow> = jobs.iter().filter(|job| job.status.has_result() && job.repeat == 1).collect();
+    for (done, &job) in shown.iter().enumerate() {
+        tell(Part { name: "drapes to turn", step: [done + 1, shown.len()] });
         if !all.has_body(&job.subject) {
             add_body(store, job, &mut all)?;
         }
