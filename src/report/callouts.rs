@@ -126,8 +126,10 @@ mod tests {
     fn a_circle_stands_beside_its_place() {
         let callout = |number, across| Callout { number, at: [across, 0.5] };
         let found = placed(&[callout(1, 0.2), callout(2, 0.5), callout(3, 0.5), callout(4, 0.9)]);
-        let left: Vec<i64> = found.iter().filter(|placed| placed.circle[0] < 240.0).map(|placed| placed.number).collect();
-        let right: Vec<i64> = found.iter().filter(|placed| placed.circle[0] > 240.0).map(|placed| placed.number).collect();
+        let left: Vec<i64> =
+            found.iter().filter(|placed| placed.circle[0] < 240.0).map(|placed| placed.number).collect();
+        let right: Vec<i64> =
+            found.iter().filter(|placed| placed.circle[0] > 240.0).map(|placed| placed.number).collect();
         assert_eq!((left, right), (vec![1, 2], vec![3, 4]));
         let far = |a: &Placed, b: &Placed| (a.circle[0] - b.circle[0]).hypot(a.circle[1] - b.circle[1]);
         assert!(found.iter().enumerate().all(|(k, a)| found[..k].iter().all(|b| far(a, b) >= 2.0 * RADIUS)));

@@ -151,9 +151,8 @@ impl Column {
     fn new(size: &FitSize, shown: Option<&TryOn>, beside: Option<&TryOn>) -> Result<Self, ReportError> {
         let is = |picture: &&Picture, name: &str| picture.file.contains(name);
         let views = shown.into_iter().flat_map(|run| &run.views);
-        let views = SIDES
-            .into_iter()
-            .filter_map(|side| views.clone().find(|picture| is(picture, &format!("{side}-plain"))));
+        let views =
+            SIDES.into_iter().filter_map(|side| views.clone().find(|picture| is(picture, &format!("{side}-plain"))));
         let map = |run: Option<&'_ TryOn>, name: &str| {
             run.and_then(|run| run.maps.iter().find(|map| map.picture.file.contains(name))).map(MapImage::new)
         };

@@ -355,7 +355,8 @@ fn fitted() -> ReportData {
 fn comments_are_called_out_on_the_picture_of_their_side() {
     let page_of = |data: &ReportData| String::from_utf8(files(data, Purpose::Fit).unwrap()[1].1.clone()).unwrap();
     let page = page_of(&fitted());
-    let shots: Vec<&str> = page.split("<div class=\"shot\">").skip(1).map(|rest| rest.split_once("</div>").unwrap().0).collect();
+    let shots: Vec<&str> =
+        page.split("<div class=\"shot\">").skip(1).map(|rest| rest.split_once("</div>").unwrap().0).collect();
     let [front, side, back] = shots[..] else { panic!("{} pictures", shots.len()) };
     let check = |shot: &str, view: &str, numbers: &str| {
         assert!(shot.contains(&format!("alt=\"Tee, {view} view\"")), "{view}: {shot}");

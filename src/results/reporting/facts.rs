@@ -7,7 +7,8 @@ use engine::stages::Model;
 use fit::{Basis, Ease, Finding, Simulator};
 use pattern::Style;
 use report::data::{
-    Assumed, AuditNote, Column, Drawing, EaseMatrix, FabricFacts, Fact, Severity, SizeTip, Subject, SubjectTable, Verdict,
+    Assumed, AuditNote, Column, Drawing, EaseMatrix, FabricFacts, Fact, Severity, SizeTip, Subject, SubjectTable,
+    Verdict,
 };
 use spec::file::ScanFile;
 use spec::{Person, bodies};

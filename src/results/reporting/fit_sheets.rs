@@ -9,8 +9,8 @@ use crate::reporting::{Part, Tell};
 use fit::target::band_words;
 use geom::units::signed_tenths;
 use pattern::pom::Point;
-use report::data::{Fact, FitCell, FitComment, FitRow, FitSheet, FitSize, FitTable, FitVerdict};
 use render::Frame;
+use report::data::{Fact, FitCell, FitComment, FitRow, FitSheet, FitSize, FitTable, FitVerdict};
 use store::comments::{self, Comment, Remark, State};
 use store::{Result, Store};
 

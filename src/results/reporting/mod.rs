@@ -97,12 +97,7 @@ const LIMITS: [&str; 1] = [
 ///
 /// # Errors
 /// When there is no such study, or a stored result cannot be read.
-pub fn report(
-    store: &Store,
-    study: &str,
-    purpose: Option<Purpose>,
-    tell: Tell<'_>,
-) -> Result<Vec<(String, Vec<u8>)>> {
+pub fn report(store: &Store, study: &str, purpose: Option<Purpose>, tell: Tell<'_>) -> Result<Vec<(String, Vec<u8>)>> {
     if study == PUBLISHED {
         return published::report_published(store);
     }
@@ -121,12 +116,7 @@ pub fn report(
     Ok(files)
 }
 
-fn report_data(
-    store: &Store,
-    study: &str,
-    files: &mut Vec<(String, Vec<u8>)>,
-    tell: Tell<'_>,
-) -> Result<ReportData> {
+fn report_data(store: &Store, study: &str, files: &mut Vec<(String, Vec<u8>)>, tell: Tell<'_>) -> Result<ReportData> {
     tell(part("bodies and patterns"));
     let jobs = read::jobs(store, &JobFilter { study: Some(study.to_owned()), ..JobFilter::default() })?;
     let bodies = facts::bodies(store, study, &jobs)?;

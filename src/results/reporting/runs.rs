@@ -59,7 +59,7 @@ pub(super) fn report_runs(
     let shrink = (FULL_SIZE as f64 / shown as f64).sqrt().max(LEAST_SHRINK);
     let (mut runs, mut links): (Vec<TryOn>, Vec<RawLink>) = (Vec::new(), Vec::new());
     let mut sheets = Sheets::of(study, jobs);
-    let threads = thread::available_parallelism().map_or(1, usize::from);
+    let threads = threads();
     let all = jobs.len();
     for (jobs, dressed) in jobs.chunks(threads).zip(dressed.chunks(threads)) {
         tell(Part { name: "pictures", step: [runs.len() + 1, all] });
@@ -208,18 +208,28 @@ struct Format {
     shrink: f64,
 }
 
-/// Takes the pictures of jobs in parallel, with a thread for each.
-fn photograph(jobs: &[JobRow], dressed: &[Option<Dressed>], format: Format) -> Vec<Result<Shots>> {
+/// Number of results that are worked on at once.
+pub(super) fn threads() -> usize {
+    thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// Results of `work` on each item, in order, with a thread for each.
+pub(super) fn side_by_side<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     thread::scope(|scope| {
-        let shoot = |(job, worn): (&'_ _, &'_ Option<Dressed>)| {
-            worn.as_ref().map_or_else(|| Ok(Shots::default()), |worn| shots(job, worn, format))
-        };
-        let threads: Vec<_> = jobs.iter().zip(dressed).map(|pair| scope.spawn(move || shoot(pair))).collect();
+        let threads: Vec<_> = items.iter().map(|item| scope.spawn(|| work(item))).collect();
         let join = |thread: thread::ScopedJoinHandle<_>| match thread.join() {
-            Ok(shots) => shots,
+            Ok(done) => done,
             Err(panic) => std::panic::resume_unwind(panic),
         };
         threads.into_iter().map(join).collect()
+    })
+}
+
+/// Takes the pictures of jobs in parallel.
+fn photograph(jobs: &[JobRow], dressed: &[Option<Dressed>], format: Format) -> Vec<Result<Shots>> {
+    let pairs: Vec<(&JobRow, &Option<Dressed>)> = jobs.iter().zip(dressed).collect();
+    side_by_side(&pairs, |(job, worn)| {
+        worn.as_ref().map_or_else(|| Ok(Shots::default()), |worn| shots(job, worn, format))
     })
 }
 

@@ -48,7 +48,9 @@ impl Workpiece {
         told.extend(nest.unit_remarks().map(str::to_owned));
         let unsure = confidences(&String::from_utf8_lossy(&file.bytes)).into_iter().flatten().count();
         let all = entries.seam.len();
-        told.extend((unsure > 0).then(|| format!("{unsure} of {all} seams are proposed, and nobody has confirmed them")));
+        told.extend(
+            (unsure > 0).then(|| format!("{unsure} of {all} seams are proposed, and nobody has confirmed them")),
+        );
         Ok(Assumed { told, left_out: self.left_out()? })
     }
 
