@@ -147,7 +147,7 @@ impl Making {
     /// Line without a part yet.
     pub fn new(context: &Context) -> Self {
         let bar = (!context.quiet && std::io::stderr().is_terminal()).then(|| {
-            let style = ProgressStyle::with_template("report: {msg} {elapsed}");
+            let style = ProgressStyle::with_template("making the report: {msg} {elapsed}");
             ProgressBar::new_spinner().with_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()))
         });
         Self { began: Instant::now(), bar, told: Cell::new(""), quiet: context.quiet }
@@ -158,7 +158,7 @@ impl Making {
         match &self.bar {
             Some(bar) => bar.set_message(part.to_string()),
             None if !self.quiet && self.began.elapsed() > SOON && self.told.replace(part.name) != part.name => {
-                eprintln!("report: {}", part.name);
+                eprintln!("making the report: {}", part.name);
             }
             None => {}
         }
