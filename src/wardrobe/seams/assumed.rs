@@ -88,7 +88,7 @@ fn why<'n>(notes: &'n [String], piece: &str) -> Option<&'n str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::seams::desk::{Asking, proposal};
+    use crate::seams::{SeamEdit, SeamStep};
     use spec::patterns::Model;
     use store::files::SourceFile;
 
@@ -98,40 +98,49 @@ mod tests {
         SourceFile { name, bytes: bytes.into() }
     }
 
-    fn sewn(pattern: SourceFile, seams: SourceFile) -> Assumed {
-        Workpiece { pattern, seams: Some(seams), size: "M".to_owned(), unit: None }.assumed().expect("it is sewn")
+    fn tee(seams: SourceFile) -> Workpiece {
+        Workpiece { pattern: drafted("tshirt-m.dxf"), seams: Some(seams), size: "M".to_owned(), unit: None }
     }
 
     #[test]
     fn the_line_that_is_sewn_is_told() {
-        let check = |from: &str, to: &str, told: &[&str]| {
+        let check = |keys: &str, told: &str| {
             let seams = drafted("tshirt.seams.toml");
-            let text = String::from_utf8_lossy(&seams.bytes).replacen(from, to, 1);
-            let seams = SourceFile { bytes: text.into_bytes().into(), ..seams };
-            let found = sewn(drafted("tshirt-m.dxf"), seams);
-            assert_eq!(found.told, told);
-            assert!(found.left_out.is_empty(), "{found:?}");
+            let text = [keys.as_bytes(), &seams.bytes].concat();
+            let seams = SourceFile { bytes: text.into(), ..seams };
+            let found = tee(seams).assumed().expect("it is sewn");
+            assert_eq!(found, Assumed { told: vec![told.to_owned()], left_out: Vec::new() });
         };
-        let plain = "the cut line is sewn: the file has no sew line, and no allowance was said";
-        check("", "", &[plain]);
-        let inside = "sewn 5 mm inside the cut line";
-        check("length_tolerance_mm", "allowance_mm = 5.0\nlength_tolerance_mm", &[inside]);
+        check("", "the cut line is sewn: the file has no sew line, and no allowance was said");
+        check("allowance_mm = 0.1\n", "sewn 0.1 mm inside the cut line");
     }
 
     #[test]
-    fn a_piece_that_is_not_sewn_has_the_reason_of_the_import() {
-        let pattern = drafted("tshirt-m.dxf");
-        let text = String::from_utf8_lossy(&pattern.bytes).replace("SLEEVE", "POCKET");
-        let pattern = SourceFile { bytes: text.into_bytes().into(), ..pattern };
-        let proposed = proposal(&pattern, &Asking::default()).expect("a trunk").proposal;
-        let seams = SourceFile { name: "a.seams.toml".to_owned(), bytes: proposed.toml("a").into_bytes().into() };
-        let found = sewn(pattern, seams);
-        let [left_out] = &found.left_out[..] else { panic!("{found:?}") };
-        assert!(left_out.pieces.iter().all(|piece| piece.contains("POCKET")), "{left_out:?}");
-        assert_eq!(left_out.why, "by their names or their size details that a drape does without");
-        let note = format!("{NOTE}`{}`: {}", left_out.pieces.join("`, `"), left_out.why);
-        assert!(proposed.notes.contains(&note), "{note}: {:?}", proposed.notes);
-        let unsure = found.told.iter().find(|told| told.contains("nobody has confirmed"));
-        assert!(unsure.is_some_and(|told| told.contains(&format!("of {} seams", proposed.seams.len()))), "{found:?}");
+    fn seams_that_nobody_confirmed_are_counted() {
+        let proposed = tee(drafted("tshirt.seams.toml")).proposed("tee").expect("it is recognised");
+        let told = tee(proposed).assumed().expect("it is sewn").told;
+        assert_eq!(told[1], "8 of 8 seams are proposed, and nobody has confirmed them");
+    }
+
+    #[test]
+    fn a_piece_that_the_seam_file_does_not_name_is_left_out() {
+        let mut seams = tee(drafted("tshirt.seams.toml")).proposed("tee").expect("it is recognised");
+        for piece in ["sleeve_right", "sleeve_left"] {
+            let step = SeamStep::Edit(SeamEdit::LeaveOut { piece: piece.to_owned() });
+            seams = tee(seams).after(&step).expect("it can be left out");
+        }
+        let found = tee(seams).assumed().expect("it is sewn").left_out;
+        let expected = LeftOut { pieces: vec!["SLEEVE".to_owned()], why: "the seam file does not name it".to_owned() };
+        assert_eq!(found, [expected]);
+    }
+
+    #[test]
+    fn a_reason_is_that_of_the_import() {
+        let notes = ["sewn".to_owned(), format!("{NOTE}`A`, `B: x`: by their names"), format!("{NOTE}`C`: spare")];
+        let check = |piece: &str, expect: Option<&str>| assert_eq!(why(&notes, piece), expect, "{piece}");
+        check("A", Some("by their names"));
+        check("B: x", Some("by their names"));
+        check("C", Some("spare"));
+        check("D", None);
     }
 }
