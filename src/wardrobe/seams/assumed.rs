@@ -4,7 +4,7 @@ use crate::seams::desk::confidences;
 use crate::seams::workpiece::Workpiece;
 use geom::units::from_mm;
 use pattern::check::FindingKind;
-use pattern::propose;
+use pattern::propose::{self, Question};
 use pattern::seams::SeamFile;
 use spec::patterns::{self, Nest};
 use store::{InOrigin, Origin, Result};
@@ -15,7 +15,7 @@ const NOTE: &str = "left out: ";
 /// Assumptions on a size of a pattern.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Assumed {
-    /// Sentences on the line that is sewn, the unit, and seams that nobody confirmed.
+    /// Sentences on the line that is sewn, the unit, seams that nobody confirmed and questions that nobody answered.
     pub told: Vec<String>,
     /// Pieces that are drawn and not sewn.
     pub left_out: Vec<LeftOut>,
@@ -51,6 +51,7 @@ impl Workpiece {
         told.extend(
             (unsure > 0).then(|| format!("{unsure} of {all} seams are proposed, and nobody has confirmed them")),
         );
+        told.extend(self.asked().iter().map(open));
         Ok(Assumed { told, left_out: self.left_out()? })
     }
 
@@ -76,6 +77,13 @@ impl Workpiece {
         }
         Ok(found)
     }
+}
+
+/// Open question, with the answer that is taken until somebody answers.
+fn open(asked: &Question) -> String {
+    let taken = asked.taken.and_then(|taken| asked.choices.get(taken));
+    let taken = taken.map_or_else(String::new, |choice| format!(" Taken: {choice}"));
+    format!("open question: {}{taken}", asked.text)
 }
 
 /// Reason in the note that leaves a piece out: what follows the names.
@@ -120,6 +128,16 @@ mod tests {
         let proposed = tee(drafted("tshirt.seams.toml")).proposed("tee").expect("it is recognised");
         let told = tee(proposed).assumed().expect("it is sewn").told;
         assert_eq!(told[1], "8 of 8 seams are proposed, and nobody has confirmed them");
+    }
+
+    #[test]
+    fn open_questions_are_told() {
+        let asked = "# ASK: which is `A`? a: the right one; b: the left one (b is taken)\n# SETTLED: is it whole?\n";
+        let seams = drafted("tshirt.seams.toml");
+        let text = [asked.as_bytes(), &seams.bytes].concat();
+        let told = tee(SourceFile { bytes: text.into(), ..seams }).assumed().expect("it is sewn").told;
+        let open: Vec<&String> = told.iter().filter(|told| told.starts_with("open question: ")).collect();
+        assert_eq!(open, ["open question: which is `A`? Taken: the left one"], "{told:?}");
     }
 
     #[test]
