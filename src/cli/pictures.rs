@@ -9,6 +9,7 @@ use super::args::{
     Stage as StageArgument, View as ViewArgument,
 };
 use super::context::{Context, project_folder};
+use super::progress::Making;
 use super::{CliError, End, Outcome, output};
 use render::export::MeshFormat;
 use render::{Rgb, View};
@@ -169,7 +170,10 @@ fn write_report(
     folder: &Path,
     purpose: Option<Purpose>,
 ) -> Result<(), CliError> {
-    files::write_files(folder, &reporting::report(store, study, purpose)?)?;
+    let making = Making::new(context);
+    let made = reporting::report(store, study, purpose, &|part| making.tell(part));
+    making.finish();
+    files::write_files(folder, &made?)?;
     tell_report(context, &folder.join(PAGE))
 }
 

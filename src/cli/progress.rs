@@ -1,5 +1,6 @@
 //! Progress on standard error: bars on a terminal, plain lines elsewhere.
 
+use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
@@ -10,6 +11,7 @@ use super::context::Context;
 use super::output::note;
 use engine::{Ending, notification};
 use fit::Simulator;
+use results::reporting::Part;
 use store::{JobFilter, JobId, JobRow, Result, Status, Store, read};
 
 /// Label of a job, such as `tshirt S ii fem`.
@@ -170,6 +172,45 @@ impl Progress {
             bars.running.values().for_each(ProgressBar::finish_and_clear);
             bars.total.finish_and_clear();
         }
+    }
+}
+
+/// Time after which the parts of a report are told where standard error is no terminal.
+const SOON: Duration = Duration::from_secs(1);
+
+/// Line that names the part of a report being made: on a terminal while it is made, elsewhere a line for each part
+/// after the first second.
+pub struct Making {
+    began: Instant,
+    bar: Option<ProgressBar>,
+    told: Cell<&'static str>,
+    quiet: bool,
+}
+
+impl Making {
+    /// Line without a part yet.
+    pub fn new(context: &Context) -> Self {
+        let bar = (!context.quiet && std::io::stderr().is_terminal()).then(|| {
+            let style = ProgressStyle::with_template("making the report: {msg} {elapsed}");
+            ProgressBar::new_spinner().with_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()))
+        });
+        Self { began: Instant::now(), bar, told: Cell::new(""), quiet: context.quiet }
+    }
+
+    /// Names the part that is made now.
+    pub fn tell(&self, part: Part) {
+        match &self.bar {
+            Some(bar) => bar.set_message(part.to_string()),
+            None if !self.quiet && self.began.elapsed() > SOON && self.told.replace(part.name) != part.name => {
+                eprintln!("making the report: {}", part.name);
+            }
+            None => {}
+        }
+    }
+
+    /// Removes the line from a terminal.
+    pub fn finish(&self) {
+        self.bar.iter().for_each(ProgressBar::finish_and_clear);
     }
 }
 

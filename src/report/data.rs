@@ -30,6 +30,8 @@ pub struct ReportData {
     pub subjects: SubjectTable,
     /// Pattern drawings with numbered measurements.
     pub drawings: Vec<Drawing>,
+    /// Assumptions on the pattern of each garment, and pieces that are not sewn.
+    pub assumed: Vec<Assumed>,
     /// Ease below which a fit is tight and above which it is loose, m.
     pub cuts: Cuts,
     /// Ease of every subject and size, garment by garment.
@@ -183,6 +185,17 @@ pub struct Drawing {
     pub svg: String,
 }
 
+/// Assumptions on the pattern of a garment.
+#[derive(Clone, Debug)]
+pub struct Assumed {
+    /// Name of the garment in the study.
+    pub garment: String,
+    /// Assumptions, such as the line that is sewn.
+    pub told: Vec<String>,
+    /// Pieces that are drawn and not sewn, each group with its reason.
+    pub left_out: Vec<Fact>,
+}
+
 /// Ease of one garment.
 #[derive(Clone, Debug)]
 pub struct EaseMatrix {
@@ -251,6 +264,8 @@ pub struct FitSheet {
     pub comments: Vec<FitComment>,
     /// Last round with its sign-off, in words; empty without a round.
     pub round: String,
+    /// Size on whose pictures the callouts of open comments stand; empty without an open comment on a drape.
+    pub called: String,
 }
 
 /// A comment of a fitting.
@@ -258,8 +273,13 @@ pub struct FitSheet {
 pub struct FitComment {
     /// Number of the callout.
     pub number: i64,
-    /// Side and place, such as `front: hip`.
-    pub seen: String,
+    /// Side from which it is seen: `front`, `side` or `back`.
+    pub side: &'static str,
+    /// Place on the garment, such as `hip`.
+    pub place: String,
+    /// Place in the picture of the side, as shares of its width from the left and of its height from the top; `None`
+    /// where no callout stands.
+    pub spot: Option<[f64; 2]>,
     /// Finding, in words.
     pub said: String,
     /// `minor`, `major` or `critical`.

@@ -5,6 +5,7 @@
 //! none. JPEG ([`render::jpeg`]) suits pictures best: six runs with five pictures each stay below 3 MB. Charts are SVG
 //! in the page, and [`Chart::png`] makes files of them.
 
+mod callouts;
 pub mod chart;
 pub mod data;
 mod evidence;

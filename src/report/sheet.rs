@@ -4,6 +4,7 @@ use base64::Engine;
 use sha2::{Digest, Sha256};
 
 use super::ReportError;
+use super::callouts::{Callout, overlay};
 use super::data::{FitSheet, FitSize, FitVerdict, Outcome, Picture, ReportData, TryOn};
 use super::images::{Image, MapImage, address};
 use super::text::{count, simulator_name};
@@ -26,6 +27,9 @@ pub(super) struct FitPage<'a> {
     script_hash: String,
 }
 
+/// Sides from which a garment is shown, as the files of the pictures name them.
+const SIDES: [&str; 3] = ["front", "side", "back"];
+
 /// A garment on a subject.
 struct Sheet<'a> {
     id: String,
@@ -36,6 +40,15 @@ struct Sheet<'a> {
     sections: Vec<String>,
     /// Source of the drape that is shown and measured, in words.
     source: String,
+    /// Pictures with the callouts of open comments.
+    called: Vec<Called>,
+}
+
+/// Picture of a side with its callouts.
+struct Called {
+    image: Image,
+    /// Callouts, as SVG.
+    callouts: String,
 }
 
 /// Pictures of a size, all from one camera.
@@ -105,7 +118,9 @@ impl<'a> Sheet<'a> {
                 simulator_name(simulator)
             )
         });
+        let is_called = |run: &&&TryOn| run.size == sheet.called && Some(run.simulator) == sheet.simulator;
         Ok(Self {
+            called: runs.iter().find(is_called).map_or(Ok(Vec::new()), |run| called(sheet, run))?,
             id: format!("fit-{}", number + 1),
             sheet,
             columns,
@@ -115,15 +130,29 @@ impl<'a> Sheet<'a> {
     }
 }
 
+/// Pictures of a run from all sides, with the callouts of the comments that are seen there; none without a callout.
+fn called(sheet: &FitSheet, run: &TryOn) -> Result<Vec<Called>, ReportError> {
+    if sheet.comments.iter().all(|comment| comment.spot.is_none()) {
+        return Ok(Vec::new());
+    }
+    let picture = |side: &str| {
+        let shown = run.views.iter().find(|picture| picture.file.contains(&format!("{side}-plain")))?;
+        let seen = sheet.comments.iter().filter(|comment| comment.side == side);
+        let callouts: Vec<Callout> =
+            seen.filter_map(|comment| Some(Callout { number: comment.number, at: comment.spot? })).collect();
+        Some(Image::new(shown).map(|image| Called { image, callouts: overlay(&callouts) }))
+    };
+    SIDES.into_iter().filter_map(picture).collect()
+}
+
 impl Column {
     /// Selects front, side, back and stretch of the measured drape `shown`. A garment smaller than the body also gets
     /// the gap map of the Hybrid-GS drape `beside`, which shows where the garment does not close.
     fn new(size: &FitSize, shown: Option<&TryOn>, beside: Option<&TryOn>) -> Result<Self, ReportError> {
         let is = |picture: &&Picture, name: &str| picture.file.contains(name);
         let views = shown.into_iter().flat_map(|run| &run.views);
-        let views = ["front-plain", "side-plain", "back-plain"]
-            .into_iter()
-            .filter_map(|name| views.clone().find(|picture| is(picture, name)));
+        let views =
+            SIDES.into_iter().filter_map(|side| views.clone().find(|picture| is(picture, &format!("{side}-plain"))));
         let map = |run: Option<&'_ TryOn>, name: &str| {
             run.and_then(|run| run.maps.iter().find(|map| map.picture.file.contains(name))).map(MapImage::new)
         };

@@ -305,3 +305,80 @@ fn charts_place_marks_where_values_are() {
     let mean = chart::mean_sd_chart("Tee", &runs).unwrap();
     assert!(mean.alt().contains("2 measurements over 2 runs"), "{}", mean.alt());
 }
+
+/// The sample with a fit sheet of the first run: two open comments, and one that is met.
+fn fitted() -> ReportData {
+    let comment = |number: i64, side: &'static str, place: &str, spot: Option<[f64; 2]>| FitComment {
+        number,
+        side,
+        place: place.into(),
+        spot,
+        said: "tight by 32 mm".into(),
+        severity: "major",
+        cause: "pattern too narrow there".into(),
+        action: String::new(),
+        owner: String::new(),
+        state: "round 1, open".into(),
+    };
+    let sheet = FitSheet {
+        garment: "Tee".into(),
+        subject: "i".into(),
+        intended: "regular".into(),
+        verdict: "wear S".into(),
+        drape: String::new(),
+        sizes: vec![FitSize { size: "S".into(), is_to_wear: true, fits: true, words: "as meant".into() }],
+        simulator: Some(Simulator::Fem),
+        tables: vec![],
+        sections: vec![],
+        comments: vec![
+            comment(1, "front", "chest", Some([0.5, 0.4])),
+            comment(2, "back", "neck", Some([0.5, 0.1])),
+            comment(3, "front", "lining", None),
+        ],
+        round: "Round 1, not signed; 3 open of 3.".into(),
+        called: "S".into(),
+    };
+    let mut data = sample();
+    for picture in &mut data.runs[0].views {
+        picture.file = format!("pictures/job-1-{}-plain.jpg", picture.caption);
+    }
+    data.fit.sheets = vec![sheet];
+    data.assumed = vec![Assumed {
+        garment: "Tee".into(),
+        told: vec!["sewn 10 mm inside the cut line".into()],
+        left_out: vec![Fact { name: "POCKET, COLLAR".into(), value: "a drape does without them".into() }],
+    }];
+    data
+}
+
+#[test]
+fn comments_are_called_out_on_the_picture_of_their_side() {
+    let page_of = |data: &ReportData| String::from_utf8(files(data, Purpose::Fit).unwrap()[1].1.clone()).unwrap();
+    let page = page_of(&fitted());
+    let shots: Vec<&str> =
+        page.split("<div class=\"shot\">").skip(1).map(|rest| rest.split_once("</div>").unwrap().0).collect();
+    let [front, side, back] = shots[..] else { panic!("{} pictures", shots.len()) };
+    let check = |shot: &str, view: &str, numbers: &str| {
+        assert!(shot.contains(&format!("alt=\"Tee, {view} view\"")), "{view}: {shot}");
+        let label = shot.split_once("aria-label=\"").map(|(_, rest)| rest.split_once('"').unwrap().0);
+        assert_eq!(label, (!numbers.is_empty()).then_some(numbers), "{view}");
+    };
+    check(front, "front", "Comments 1");
+    check(side, "side", "");
+    check(back, "back", "Comments 2");
+    assert!(words(&page).contains("3 | front: lining"), "a comment without a place is in the table");
+    let mut met = fitted();
+    met.fit.sheets[0].comments.iter_mut().for_each(|comment| comment.spot = None);
+    assert!(!page_of(&met).contains("class=\"shot\""), "no callout, no picture for it");
+}
+
+#[test]
+fn both_pages_say_what_is_assumed_and_left_off() {
+    for (name, page) in files(&fitted(), Purpose::Fit).unwrap().into_iter().take(2) {
+        let page = words(&String::from_utf8(page).unwrap());
+        assert!(page.contains("Assumed and left off"), "{name}");
+        let row = "Tee | sewn 10 mm inside the cut line | POCKET, COLLAR : a drape does without them";
+        assert!(page.contains(row), "{name}: {page}");
+    }
+    assert!(!html(&sample()).unwrap().contains("left off"));
+}

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
-use crate::reporting;
+use crate::reporting::{self, Tell};
 use store::{Result, Store, files};
 
 /// A report in a folder.
@@ -50,13 +50,14 @@ fn count(folder: &Path) -> usize {
     entries.map(|entry| if entry.path().is_dir() { count(&entry.path()) } else { 1 }).sum()
 }
 
-/// Builds the report of a study in a folder of its own below `folder`. Returns the path of its page.
+/// Builds the report of a study in a folder of its own below `folder`. `tell` hears of each part. Returns the path of
+/// its page.
 ///
 /// # Errors
 /// When there is no such study, a stored result cannot be read, or a file cannot be written.
-pub fn build_report(store: &Store, study: &str, folder: &Path) -> Result<PathBuf> {
+pub fn build_report(store: &Store, study: &str, folder: &Path, tell: Tell<'_>) -> Result<PathBuf> {
     let folder = folder.join(files::study_folder(study));
-    files::write_files(&folder, &reporting::report(store, study, None)?)?;
+    files::write_files(&folder, &reporting::report(store, study, None, tell)?)?;
     Ok(folder.join("index.html"))
 }
 

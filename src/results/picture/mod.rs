@@ -9,6 +9,7 @@ pub use maps::Map;
 pub use order::{Order, Shot, Zoom, pictures, turntable};
 
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 use image::RgbaImage;
 
@@ -81,6 +82,25 @@ pub(crate) struct Dressed {
     under: Vec<TriMesh>,
     /// Positions of the garment at earlier stages that the simulator keeps.
     earlier: Vec<sim::Staged>,
+    /// Fields of the sewn cloth, which several maps and levels ask for, once it was sewn.
+    fields: OnceLock<Fields>,
+}
+
+/// Fields of the sewn cloth at the vertices of the garment.
+struct Fields {
+    stretches_pct: Vec<f64>,
+    tensions_n_m: Vec<f64>,
+    pressures_kpa: Vec<f64>,
+}
+
+impl Fields {
+    fn of(sewn: &Sewn<'_>) -> Self {
+        Self {
+            stretches_pct: sewn.stretches_pct(),
+            tensions_n_m: sewn.tensions_n_m(),
+            pressures_kpa: sewn.pressures_kpa(),
+        }
+    }
 }
 
 impl Dressed {
@@ -98,6 +118,7 @@ impl Dressed {
             let place = self.earlier.iter().position(|staged| staged.stage == stage)?;
             self.cloth.positions = self.earlier.swap_remove(place).positions;
             self.stage = stage;
+            self.fields = OnceLock::new();
         }
         Some(self)
     }
@@ -119,7 +140,18 @@ impl Dressed {
 
     /// Returns the cloth, welded along its seams.
     pub fn sewn(&self) -> Result<Sewn<'_>> {
-        Sewn::new(&self.garment, &self.fabric, &self.cloth.positions).origin(Origin::Render)
+        let sewn = Sewn::new(&self.garment, &self.fabric, &self.cloth.positions).origin(Origin::Render)?;
+        self.fields.get_or_init(|| Fields::of(&sewn));
+        Ok(sewn)
+    }
+
+    /// Returns the fields of the sewn cloth.
+    fn fields(&self) -> Result<&Fields> {
+        if let Some(known) = self.fields.get() {
+            return Ok(known);
+        }
+        let sewn = self.sewn()?;
+        Ok(self.fields.get_or_init(|| Fields::of(&sewn)))
     }
 
     /// Values of a map at the vertices of the cloth, in the unit of the map's scale: NaN where a vertex has none. Empty
@@ -128,14 +160,14 @@ impl Dressed {
         let positions = &self.cloth.positions;
         Ok(match map {
             Map::Plain | Map::Check => vec![],
-            Map::Stretch => self.sewn()?.stretches_pct(),
-            Map::Tension => self.sewn()?.tensions_n_m(),
+            Map::Stretch => self.fields()?.stretches_pct.clone(),
+            Map::Tension => self.fields()?.tensions_n_m.clone(),
             Map::Chi => maps::chis(&self.garment, positions),
             // Only the drape of FEM-GS is in equilibrium with the body.
             Map::Pressure if (self.simulator, self.stage) != (Simulator::Fem, sim::Stage::Drape) => {
                 vec![f64::NAN; positions.len()]
             }
-            Map::Pressure => self.sewn()?.pressures_kpa(),
+            Map::Pressure => self.fields()?.pressures_kpa.clone(),
             Map::Gap => {
                 // The distance field that contact uses ends a few centimetres off the body; a gap may be wider.
                 let surface = |mesh| Surface::new(mesh).origin(Origin::Render);
@@ -302,7 +334,8 @@ pub(crate) fn dressed(store: &Store, id: JobId) -> Result<Dressed> {
     let levels = [("chest", chest_m), ("underbust", underbust_m), ("waist", waist_m), ("hip", hip_m)].into();
     let (simulator, stage, earlier, body) = (job.simulator, drape.stage, drape.earlier, model.body.mesh);
     let under = read::layers_under(store, id)?.into_iter().filter_map(|layer| worn(store, layer).ok()).collect();
-    Ok(Dressed { simulator, stage, garment, fabric, levels, body, cloth, under, earlier })
+    let fields = OnceLock::new();
+    Ok(Dressed { simulator, stage, garment, fabric, levels, body, cloth, under, earlier, fields })
 }
 
 /// Draped cloth of a job.

@@ -54,6 +54,7 @@ fn dressed(simulator: Simulator) -> Dressed {
         cloth,
         under: vec![],
         earlier: drape.earlier,
+        fields: OnceLock::new(),
     }
 }
 

@@ -1,14 +1,17 @@
 //! Drapes in the page of a fit report, which its reader can turn.
 
 use crate::assessment::GarmentWorn;
-use crate::picture::{self, Map};
-use crate::reporting::quoted;
+use crate::fit_card::FitCard;
+use crate::picture::{self, Dressed, Map};
+use crate::reporting::runs::{side_by_side, threads};
+use crate::reporting::{Part, Tell, quoted};
 use engine::stages::Model;
 use fit::on_body::sites;
-use geom::V3;
+use geom::{TriMesh, V3};
 use pattern::pom::{Point, PointOfMeasure};
 use pattern::style::PathPart;
 use pattern::{Garment, MaterialLine, Style};
+use render::Scale;
 use report::viewer::{Drape, Drapes};
 use store::{JobId, JobRow, Result, StageKind, Store, sql};
 use wardrobe::catalogue;
@@ -17,16 +20,28 @@ use wardrobe::catalogue;
 const MAPS: [Map; 4] = [Map::Stretch, Map::Tension, Map::Pressure, Map::Gap];
 
 /// All drapes of a study, marked where they are in the size to wear.
-pub(super) fn drapes(store: &Store, jobs: &[JobRow], worn: &[GarmentWorn]) -> Result<Drapes> {
+pub(super) fn drapes(store: &Store, jobs: &[JobRow], worn: &[GarmentWorn], tell: Tell<'_>) -> Result<Drapes> {
     let mut all = Drapes::default();
-    for job in jobs.iter().filter(|job| job.status.has_result() && job.repeat == 1) {
-        if !all.has_body(&job.subject) {
-            add_body(store, job, &mut all)?;
+    let jobs: Vec<&JobRow> = jobs.iter().filter(|job| job.status.has_result() && job.repeat == 1).collect();
+    for (chunk, some) in jobs.chunks(threads()).enumerate() {
+        tell(Part { name: "drapes to turn", step: [chunk * threads() + 1, jobs.len()] });
+        let read = some.iter().map(|job| picture::dressed(store, job.id)).collect::<Result<Vec<Dressed>>>()?;
+        for ((&job, dressed), shape) in some.iter().zip(&read).zip(side_by_side(&read, shape)) {
+            let Shape { mesh, maps } = shape?;
+            if !all.has_body(&job.subject) {
+                add_body(store, job, &mut all)?;
+            }
+            let mut cards = worn.iter().map(|worn| &worn.card);
+            let own = cards.find(|card| card.garment == job.garment && card.subject == job.subject);
+            all.add(&Drape {
+                names: [&job.garment, &job.size, &job.subject, job.simulator.as_str()],
+                is_to_wear: own.and_then(FitCard::to_wear).is_some_and(|size| size.size == job.size),
+                positions: &mesh.positions,
+                triangles: &mesh.triangles,
+                maps,
+                lines: lines(store, job.id, &dressed.garment, &dressed.cloth.positions)?,
+            });
         }
-        let mut cards = worn.iter().map(|worn| &worn.card);
-        let own = cards.find(|card| card.garment == job.garment && card.subject == job.subject);
-        let to_wear = own.and_then(|card| card.to_wear());
-        add(store, job, to_wear.is_some_and(|size| size.size == job.size), &mut all)?;
     }
     Ok(all)
 }
@@ -39,8 +54,13 @@ fn add_body(store: &Store, job: &JobRow, all: &mut Drapes) -> Result<()> {
     Ok(())
 }
 
-fn add(store: &Store, job: &JobRow, is_to_wear: bool, all: &mut Drapes) -> Result<()> {
-    let dressed = picture::dressed(store, job.id)?;
+/// Sewn cloth of a drape, with the values of the maps that it has.
+struct Shape {
+    mesh: TriMesh,
+    maps: Vec<(&'static str, Scale, Vec<f64>)>,
+}
+
+fn shape(dressed: &Dressed) -> Result<Shape> {
     let sewn = dressed.sewn()?;
     let mut maps = Vec::new();
     for map in MAPS {
@@ -49,15 +69,7 @@ fn add(store: &Store, job: &JobRow, is_to_wear: bool, all: &mut Drapes) -> Resul
             maps.push((map.as_str(), scale, sewn.welded(&values)));
         }
     }
-    all.add(&Drape {
-        names: [&job.garment, &job.size, &job.subject, job.simulator.as_str()],
-        is_to_wear,
-        positions: &sewn.mesh.positions,
-        triangles: &sewn.mesh.triangles,
-        maps,
-        lines: lines(store, job.id, &dressed.garment, &dressed.cloth.positions)?,
-    });
-    Ok(())
+    Ok(Shape { mesh: sewn.mesh, maps })
 }
 
 /// Points of measure that lie on the cloth, with their lengths from `v_pom`.

@@ -7,12 +7,14 @@ use engine::stages::Model;
 use fit::{Basis, Ease, Finding, Simulator};
 use pattern::Style;
 use report::data::{
-    AuditNote, Column, Drawing, EaseMatrix, FabricFacts, Fact, Severity, SizeTip, Subject, SubjectTable, Verdict,
+    Assumed, AuditNote, Column, Drawing, EaseMatrix, FabricFacts, Fact, Severity, SizeTip, Subject, SubjectTable,
+    Verdict,
 };
 use spec::file::ScanFile;
 use spec::{Person, bodies};
 use store::{EaseRow, JobRow, RecommendationRow, Result, StageKind, Status, Store, SubjectId, Value, read, sql};
 use wardrobe::catalogue;
+use wardrobe::seams::{Assumed as Known, LeftOut};
 
 /// Columns of `v_subjects` on the page: name, heading, unit, decimals.
 const MEASUREMENTS: [(&str, &str, &str, usize); 7] = [
@@ -256,6 +258,21 @@ pub(super) fn fabric_facts(store: &Store, study: &str) -> Result<Vec<FabricFacts
         facts: table.columns.iter().zip(row).skip(2).map(fact).collect(),
     };
     Ok(table.rows.iter().map(facts).collect())
+}
+
+/// Assumptions on the pattern of each garment, in the size of its first job.
+pub(super) fn assumed(store: &Store, jobs: &[JobRow]) -> Result<Vec<Assumed>> {
+    let mut found: Vec<Assumed> = Vec::new();
+    for job in jobs {
+        if found.iter().any(|assumed| assumed.garment == job.garment) {
+            continue;
+        }
+        let Known { told, left_out } = catalogue::workpiece_of(store, job.id)?.assumed()?;
+        let group = |group: LeftOut| Fact { name: group.pieces.join(", "), value: group.why };
+        let left_out = left_out.into_iter().map(group).collect();
+        found.push(Assumed { garment: job.garment.clone(), told, left_out });
+    }
+    Ok(found)
 }
 
 /// Drawing of the first size of each garment, from the pattern of its job.

@@ -3,25 +3,38 @@
 use crate::assessment::{GarmentWorn, SizeWorn};
 use crate::cross_section::{self, CutAt};
 use crate::fit_card::{FitCard, LevelSits, Sits, SizeSits};
+use crate::reporting::callouts;
 use crate::reporting::spec_tables::specification;
+use crate::reporting::{Part, Tell};
 use fit::target::band_words;
 use geom::units::signed_tenths;
 use pattern::pom::Point;
+use render::Frame;
 use report::data::{Fact, FitCell, FitComment, FitRow, FitSheet, FitSize, FitTable, FitVerdict};
-use store::comments::{self, Comment, State};
+use store::comments::{self, Comment, Remark, State};
 use store::{Result, Store};
 
-/// Fit sheets of a study.
-pub(super) fn sheets(store: &Store, study: &str, worn: &[GarmentWorn]) -> Result<Vec<FitSheet>> {
+/// Fit sheets of a study, whose pictures have a `frame`.
+pub(super) fn sheets(
+    store: &Store,
+    study: &str,
+    worn: &[GarmentWorn],
+    frame: Frame,
+    tell: Tell<'_>,
+) -> Result<Vec<FitSheet>> {
     let comments = comments::comments(store, study)?;
     let own = |worn: &GarmentWorn| -> Vec<&Comment> {
         let card = &worn.card;
         comments.iter().filter(|one| one.garment == card.garment && one.subject == card.subject).collect()
     };
-    worn.iter().map(|worn| sheet(store, worn, &own(worn))).collect()
+    let sheet = |(done, of): (usize, &GarmentWorn)| {
+        tell(Part { name: "fit sheets", step: [done + 1, worn.len()] });
+        sheet(store, of, &own(of), frame)
+    };
+    worn.iter().enumerate().map(sheet).collect()
 }
 
-fn sheet(store: &Store, worn: &GarmentWorn, comments: &[&Comment]) -> Result<FitSheet> {
+fn sheet(store: &Store, worn: &GarmentWorn, comments: &[&Comment], frame: Frame) -> Result<FitSheet> {
     let card = &worn.card;
     let beside = card.beside();
     let drape_of = |name: &str| worn.sizes.iter().find(|size| size.size == name);
@@ -42,6 +55,15 @@ fn sheet(store: &Store, worn: &GarmentWorn, comments: &[&Comment]) -> Result<Fit
         tables.push(points(&drapes, &names));
         tables.push(specification(store, &jobs, &names)?);
     }
+    let open: Vec<&Comment> = comments.iter().copied().filter(|one| one.status == State::Open).collect();
+    let last = open.iter().max_by_key(|one| one.round);
+    let called = last.and_then(|last| drape_of(&last.size));
+    let remarks: Vec<&Remark> = open.iter().map(|one| &one.remark).collect();
+    let spots = called.map_or(Ok(Vec::new()), |drape| callouts::spots(store, drape.job, frame, &remarks))?;
+    let spot_of = |comment: &Comment| {
+        let number = open.iter().position(|one| one.number == comment.number)?;
+        spots.get(number).copied().flatten()
+    };
     Ok(FitSheet {
         garment: card.garment.clone(),
         subject: card.subject.clone(),
@@ -52,12 +74,13 @@ fn sheet(store: &Store, worn: &GarmentWorn, comments: &[&Comment]) -> Result<Fit
         simulator: worn.simulator,
         tables: tables.into_iter().filter(|table| !table.rows.is_empty()).collect(),
         sections: charts.into_iter().map(|(_, chart)| chart).collect(),
-        comments: comments.iter().copied().map(told_comment).collect(),
+        comments: comments.iter().map(|comment| told_comment(comment, spot_of(comment))).collect(),
+        called: called.map_or_else(String::new, |drape| drape.size.clone()),
         round: round(comments),
     })
 }
 
-fn told_comment(comment: &Comment) -> FitComment {
+fn told_comment(comment: &Comment, spot: Option<[f64; 2]>) -> FitComment {
     let remark = &comment.remark;
     let state = match (comment.status, comment.met_in) {
         (State::Met, Some(round)) => format!("met in round {round}"),
@@ -65,7 +88,9 @@ fn told_comment(comment: &Comment) -> FitComment {
     };
     FitComment {
         number: comment.number,
-        seen: format!("{}: {}", remark.side.as_str(), remark.place),
+        side: remark.side.as_str(),
+        place: remark.place.clone(),
+        spot,
         said: remark.said.clone(),
         severity: remark.severity.as_str(),
         cause: remark.cause.clone(),

@@ -1,5 +1,6 @@
 //! The report of a study: data of its pages, and raw files beside them.
 
+mod callouts;
 mod drapes;
 mod facts;
 mod fit_sheets;
@@ -10,11 +11,39 @@ mod spec_tables;
 
 use crate::assessment;
 use crate::reporting::facts::BodyFacts;
+use crate::reporting::runs::Album;
 use fit::Simulator;
 use report::data::{Fact, FitData, RawLink};
 use report::{self, FileNames, Purpose, ReportData};
 use spec::patterns;
+use std::fmt;
 use store::{InOrigin, JobFilter, Origin, PUBLISHED, Result, Store, Table, Value, evidence, read, sql};
+
+/// Part of a report that is being made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// Name of the part, such as `pictures`.
+    pub name: &'static str,
+    /// Number of the step that is done now, from 1, and number of steps; 0 of 0 where they are not counted.
+    pub step: [usize; 2],
+}
+
+/// Listener that is told of each part before it is made.
+pub type Tell<'a> = &'a dyn Fn(Part);
+
+impl fmt::Display for Part {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.step {
+            [_, 0] => f.write_str(self.name),
+            [step, of] => write!(f, "{}, {step} of {of}", self.name),
+        }
+    }
+}
+
+/// Part without steps.
+fn part(name: &'static str) -> Part {
+    Part { name, step: [0, 0] }
+}
 
 /// Raw data: view, file, description.
 const RAW: [(&str, &str, &str); 14] = [
@@ -64,28 +93,31 @@ const LIMITS: [&str; 1] = [
 
 /// Returns the files of a study's report by their relative paths: `index.html`, the other page, pictures, charts,
 /// drawings, CSV. Without a purpose, `index.html` compares the simulators where the study has both, and else shows the
-/// fit.
+/// fit. `tell` hears of each part.
 ///
 /// # Errors
 /// When there is no such study, or a stored result cannot be read.
-pub fn report(store: &Store, study: &str, purpose: Option<Purpose>) -> Result<Vec<(String, Vec<u8>)>> {
+pub fn report(store: &Store, study: &str, purpose: Option<Purpose>, tell: Tell<'_>) -> Result<Vec<(String, Vec<u8>)>> {
     if study == PUBLISHED {
         return published::report_published(store);
     }
     read::study(store, study)?;
     let mut files = Vec::new();
-    let data = report_data(store, study, &mut files)?;
+    let data = report_data(store, study, &mut files, tell)?;
+    tell(part("tables"));
     for (view, file, _) in RAW {
         files.push((file.to_owned(), of_study(store, view, study)?.csv().into_bytes()));
     }
     let simulators = data.runs.iter().map(|run| run.simulator);
     let compares = Simulator::ALL.iter().all(|simulator| simulators.clone().any(|of_run| of_run == *simulator));
     let by_default = if compares { Purpose::Compare } else { Purpose::Fit };
+    tell(part("pages and charts"));
     files.extend(report::files(&data, purpose.unwrap_or(by_default)).origin(Origin::Report)?);
     Ok(files)
 }
 
-fn report_data(store: &Store, study: &str, files: &mut Vec<(String, Vec<u8>)>) -> Result<ReportData> {
+fn report_data(store: &Store, study: &str, files: &mut Vec<(String, Vec<u8>)>, tell: Tell<'_>) -> Result<ReportData> {
+    tell(part("bodies and patterns"));
     let jobs = read::jobs(store, &JobFilter { study: Some(study.to_owned()), ..JobFilter::default() })?;
     let bodies = facts::bodies(store, study, &jobs)?;
     let drawings = facts::drawings(store, &jobs, patterns::sheet)?;
@@ -94,9 +126,10 @@ fn report_data(store: &Store, study: &str, files: &mut Vec<(String, Vec<u8>)>) -
         let name = names.part(&format!("pattern-{}-{}", drawing.garment, drawing.size));
         files.push((format!("{name}.svg"), drawing.svg.clone().into_bytes()));
     }
-    let (runs, sheets) = runs::report_runs(store, study, &jobs, files)?;
+    let Album { runs, sheets, frame } = runs::report_runs(store, study, &jobs, files, tell)?;
     let link = |(href, label): (&str, &str)| RawLink { href: href.to_owned(), label: label.to_owned() };
     let raw = RAW.iter().map(|(_, href, label)| link((href, &format!("{href}: {label}"))));
+    tell(part("fit"));
     let worn = assessment::worn(store, study, None, None)?;
     let today = one(store, "SELECT date('now')")?;
     Ok(ReportData {
@@ -123,15 +156,16 @@ fn report_data(store: &Store, study: &str, files: &mut Vec<(String, Vec<u8>)>) -
         ))?,
         fabrics: facts::fabric_facts(store, study)?,
         subjects: facts::subject_table(&bodies),
+        assumed: facts::assumed(store, &jobs)?,
         drawings,
         cuts: read::cuts(store, study)?,
         ease: facts::ease_matrices(store, study)?,
         sizes: facts::size_tips(store, study, &bodies)?,
         fit: FitData {
-            sheets: fit_sheets::sheets(store, study, &worn)?,
+            sheets: fit_sheets::sheets(store, study, &worn, frame, tell)?,
             points: facts::drawings(store, &jobs, patterns::points_sheet)?,
             definitions: fit_sheets::definitions(&worn),
-            drapes: drapes::drapes(store, &jobs, &worn)?,
+            drapes: drapes::drapes(store, &jobs, &worn, tell)?,
         },
         runs,
         pairs: evidence::pairs(store, study)?,

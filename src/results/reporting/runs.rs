@@ -6,7 +6,7 @@ use image::{RgbaImage, imageops};
 
 use crate::picture::{self, Dressed, Map};
 use crate::reporting::sheets::{PICTURE, Sheets};
-use crate::reporting::{self, facts, quoted};
+use crate::reporting::{self, Part, Tell, facts, quoted};
 use fit::measure::Chi;
 use geom::units::mm;
 use render::{self, Camera, Cell, Frame, Scale, Scene, View};
@@ -29,13 +29,24 @@ const MAPS: [(Map, &[View]); 3] = [
     (Map::Gap, &[View::Front]),
 ];
 
+/// Runs with pictures.
+pub(super) struct Album {
+    /// All runs.
+    pub runs: Vec<TryOn>,
+    /// Links to contact sheets.
+    pub sheets: Vec<RawLink>,
+    /// Frame that all pictures share.
+    pub frame: Frame,
+}
+
 /// Runs with pictures, which share one frame, and links to contact sheets. Adds the picture files to `files`.
 pub(super) fn report_runs(
     store: &Store,
     study: &str,
     jobs: &[JobRow],
     files: &mut Vec<(String, Vec<u8>)>,
-) -> Result<(Vec<TryOn>, Vec<RawLink>)> {
+    tell: Tell<'_>,
+) -> Result<Album> {
     let eases = facts::ease_matrices(store, study)?;
     let mut dressed = Vec::new();
     for job in jobs {
@@ -46,10 +57,12 @@ pub(super) fn report_runs(
     let frame = Frame { height_m: ROOM * least.height_m, ..least };
     let shown = dressed.iter().flatten().count().max(FULL_SIZE);
     let shrink = (FULL_SIZE as f64 / shown as f64).sqrt().max(LEAST_SHRINK);
-    let (mut runs, mut links) = (Vec::new(), Vec::new());
+    let (mut runs, mut links): (Vec<TryOn>, Vec<RawLink>) = (Vec::new(), Vec::new());
     let mut sheets = Sheets::of(study, jobs);
-    let threads = thread::available_parallelism().map_or(1, usize::from);
+    let threads = threads();
+    let all = jobs.len();
     for (jobs, dressed) in jobs.chunks(threads).zip(dressed.chunks(threads)) {
+        tell(Part { name: "pictures", step: [runs.len() + 1, all] });
         let mut taken = report_runs_of(store, jobs, &eases)?;
         for (((run, worn), job), shots) in
             taken.iter_mut().zip(dressed).zip(jobs).zip(photograph(jobs, dressed, Format { frame, shrink }))
@@ -70,7 +83,7 @@ pub(super) fn report_runs(
         }
         runs.extend(taken);
     }
-    Ok((runs, links))
+    Ok(Album { runs, sheets: links, frame })
 }
 
 /// Runs with their ease, without pictures.
@@ -195,18 +208,28 @@ struct Format {
     shrink: f64,
 }
 
-/// Takes the pictures of jobs in parallel, with a thread for each.
-fn photograph(jobs: &[JobRow], dressed: &[Option<Dressed>], format: Format) -> Vec<Result<Shots>> {
+/// Number of results that are worked on at once.
+pub(super) fn threads() -> usize {
+    thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// Results of `work` on each item, in order, with a thread for each.
+pub(super) fn side_by_side<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     thread::scope(|scope| {
-        let shoot = |(job, worn): (&'_ _, &'_ Option<Dressed>)| {
-            worn.as_ref().map_or_else(|| Ok(Shots::default()), |worn| shots(job, worn, format))
-        };
-        let threads: Vec<_> = jobs.iter().zip(dressed).map(|pair| scope.spawn(move || shoot(pair))).collect();
+        let threads: Vec<_> = items.iter().map(|item| scope.spawn(|| work(item))).collect();
         let join = |thread: thread::ScopedJoinHandle<_>| match thread.join() {
-            Ok(shots) => shots,
+            Ok(done) => done,
             Err(panic) => std::panic::resume_unwind(panic),
         };
         threads.into_iter().map(join).collect()
+    })
+}
+
+/// Takes the pictures of jobs in parallel.
+fn photograph(jobs: &[JobRow], dressed: &[Option<Dressed>], format: Format) -> Vec<Result<Shots>> {
+    let pairs: Vec<(&JobRow, &Option<Dressed>)> = jobs.iter().zip(dressed).collect();
+    side_by_side(&pairs, |(job, worn)| {
+        worn.as_ref().map_or_else(|| Ok(Shots::default()), |worn| shots(job, worn, format))
     })
 }
 

@@ -81,6 +81,7 @@ impl App {
             }
             Message::Answered(ms, outcome) => screens.sql.answered(state, ms, outcome),
             Message::Reports(rows) => screens.reports.rows = Some(rows),
+            Message::ReportPart(part) => screens.reports.part = part,
             Message::ReportBuilt(page, rows) => screens.reports.built(state, page, rows),
             Message::StudyCreated(name, outcome) => study_created(state, &name, outcome),
             Message::Live(frame) if state.running.watched == Some(frame.job) => state.running.live = Some(frame),

@@ -56,6 +56,8 @@ pub enum Message {
     Answered(u64, Result<Box<ResultTable>, String>),
     /// All reports.
     Reports(Vec<ReportRow>),
+    /// Part of the report that is being built, in words.
+    ReportPart(String),
     /// Report is built, with the path of its page, or the reason why not; then all reports.
     ReportBuilt(Result<PathBuf, String>, Vec<ReportRow>),
     /// New study is written, with its name and the path of its file, or the reason why not.

@@ -194,6 +194,8 @@ fn reports_are_listed_built_and_opened() {
     assert_eq!(bench.asked(), [Effect::Files(FileTask::ListReports)]);
     assert_eq!(bench.press("b").asked(), [Effect::Files(FileTask::BuildReport("men-tops".into()))]);
     assert_eq!(bench.press("b").asked(), [], "one at a time");
+    bench.send(Message::ReportPart("pictures, 3 of 12".into()));
+    assert!(bench.screen().contains("building that of men-tops: pictures, 3 of 12"), "{}", bench.screen());
     let row = |name: &str, written_ms| ReportRow {
         name: name.into(),
         page: format!("/srv/reports/{name}/index.html").into(),

@@ -6,6 +6,7 @@ use std::sync::mpsc::{Receiver, Sender};
 use crate::messages::message::Message;
 use crate::messages::requests::FileTask;
 use engine::compose;
+use results::reporting::Part;
 use results::reports;
 use store::files::write_files;
 use wardrobe::catalogue;
@@ -25,7 +26,11 @@ pub fn serve(
             FileTask::ListReports => Ok(Message::Reports(reports(reports_folder))),
             FileTask::BuildReport(study) => {
                 let page = store.and_then(|store| {
-                    reports::build_report(store, &study, reports_folder).map_err(|error| error.to_string())
+                    let tell = |part: Part| {
+                        // Without a receiver the thread ends at its next answer.
+                        let _ = sender.send(Message::ReportPart(part.to_string()));
+                    };
+                    reports::build_report(store, &study, reports_folder, &tell).map_err(|error| error.to_string())
                 });
                 Ok(Message::ReportBuilt(page, reports(reports_folder)))
             }

@@ -38,7 +38,7 @@ pub use fabrics::{FabricRow, fabrics, with_bending};
 pub use import::{Imported, Strictness, import};
 pub use known::{StyleFiles, SubjectRow, known, person, read_fabric, read_style, subject, subject_revision, subjects};
 pub use percentiles::{doubts, is_doubtful, percentile, percentile_text};
-pub use sizes::{SizeRow, sizes, style_of, workpiece};
+pub use sizes::{SizeRow, sizes, style_of, workpiece, workpiece_of};
 pub use spec_sheet::{SpecGiven, keep_spec, spec};
 pub use style::{StyleGiven, save_seams, save_size, save_style};
 

@@ -86,15 +86,23 @@ pub fn workpiece(store: &Store, key: SizeKey) -> Result<Workpiece> {
     found.ok_or_else(|| StudyError::NotFound { what: "revision of a size", name: key.size.to_string(), known: vec![] })
 }
 
+/// Pattern and seam file that a job was made from.
+///
+/// # Errors
+/// When there is no such job.
+pub fn workpiece_of(store: &Store, id: JobId) -> Result<Workpiece> {
+    let sql = "SELECT style_id, size_id FROM job WHERE job_id = ?";
+    let row = |row: &Row<'_>| Ok(SizeKey { style: row.get(0)?, size: row.get(1)? });
+    let found = store.reader.prepare_cached(sql)?.query_row([id.0], row).optional()?;
+    let missing = || StudyError::NotFound { what: "job", name: id.to_string(), known: vec![] };
+    workpiece(store, found.ok_or_else(missing)?)
+}
+
 /// The style that a job was made from.
 ///
 /// # Errors
 /// When there is no such job.
 pub fn style_of(store: &Store, id: JobId) -> Result<Style> {
-    let sql = "SELECT style_id, size_id FROM job WHERE job_id = ?";
-    let row = |row: &Row<'_>| Ok(SizeKey { style: row.get(0)?, size: row.get(1)? });
-    let found = store.reader.prepare_cached(sql)?.query_row([id.0], row).optional()?;
-    let missing = || StudyError::NotFound { what: "job", name: id.to_string(), known: vec![] };
-    let Workpiece { pattern, seams, size, unit } = workpiece(store, found.ok_or_else(missing)?)?;
+    let Workpiece { pattern, seams, size, unit } = workpiece_of(store, id)?;
     patterns::read_style(&pattern, seams.as_ref(), Some(&size), unit)
 }

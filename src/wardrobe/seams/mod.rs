@@ -1,5 +1,6 @@
 //! Work on the seams of patterns: checks, proposals and edits.
 
+mod assumed;
 pub mod check;
 pub mod desk;
 pub mod pattern_files;
@@ -10,6 +11,7 @@ pub mod step;
 pub mod undecided;
 pub mod workpiece;
 
+pub use assumed::{Assumed, LeftOut};
 pub use check::{CHECK_EDGE_MM, SizeCheck, check_sizes, check_study, findings};
 pub use desk::{Asking, Desk, DeskEdge, DeskPiece, DeskSeam, ProposalOnPieces, Proposed, SURE, proposal, propose};
 pub use pattern::propose::{Proposal, Question};

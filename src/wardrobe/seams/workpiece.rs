@@ -244,6 +244,11 @@ impl Workpiece {
         Ok(check::findings(&pieces, &entries, style))
     }
 
+    /// Questions of the proposal that nobody has answered or settled.
+    pub fn asked(&self) -> Vec<Question> {
+        self.text().map_or_else(Vec::new, |text| marked(&text, QUESTION).collect())
+    }
+
     fn text(&self) -> Option<String> {
         Some(String::from_utf8_lossy(&self.seams.as_ref()?.bytes).into_owned())
     }

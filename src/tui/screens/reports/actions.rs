@@ -62,6 +62,7 @@ impl ReportsScreen {
     /// Handles the end of building a report.
     pub fn built(&mut self, state: &mut State, page: Result<PathBuf, String>, rows: Vec<ReportRow>) {
         let name = self.building.take();
+        self.part.clear();
         self.rows = Some(rows);
         self.row = self.shown(state).iter().position(|row| Some(&row.name) == name.as_ref()).unwrap_or(0);
         match page {

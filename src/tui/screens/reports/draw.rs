@@ -31,7 +31,8 @@ impl ReportsScreen {
     fn draw_list(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
         let rows = self.shown(state);
         let title = match &self.building {
-            Some(study) => format!("reports: building that of {study}…"),
+            Some(study) if self.part.is_empty() => format!("reports: building that of {study}…"),
+            Some(study) => format!("reports: building that of {study}: {}…", self.part),
             None if rows.len() == 1 => "1 report".to_owned(),
             None => format!("{} reports", rows.len()),
         };

@@ -13,4 +13,6 @@ pub struct ReportsScreen {
     pub by_time: bool,
     /// Name of the study whose report is being built.
     pub building: Option<String>,
+    /// Part of that report that is being made, in words; empty before the first.
+    pub part: String,
 }
