@@ -12,7 +12,7 @@ use super::context::{Context, project_folder};
 use super::progress::Making;
 use super::{CliError, End, Outcome, output};
 use render::export::MeshFormat;
-use render::{Rgb, View};
+use render::{Rgb, View, lacking_letters};
 use report::{Chart, Purpose};
 use results::{Cloth, Map, Order, Shot, Zoom, picture, record, reporting};
 use sim::Stage;
@@ -179,6 +179,8 @@ fn write_report(
 
 /// Name of the report's first page.
 const PAGE: &str = "index.html";
+/// Greatest number of letters that are told to be lacking in pictures.
+const LISTED_LETTERS: usize = 12;
 
 /// Writes a study's report, unless the present page comes from this database and is newer than the latest result, the
 /// study file and this program. Prints its path.
@@ -207,6 +209,15 @@ fn modified_ms(path: &Path) -> Option<i64> {
 
 /// Prints the path of a report's page, relative to the current folder if the page lies in it.
 fn tell_report(context: &Context, page: &Path) -> Result<(), CliError> {
+    let lacking = lacking_letters();
+    if !lacking.is_empty() {
+        let letters: Vec<String> = lacking.iter().take(LISTED_LETTERS).map(char::to_string).collect();
+        let more = if lacking.len() > LISTED_LETTERS { ", ..." } else { "" };
+        let letters = letters.join(" ");
+        output::note(&format!(
+            "pictures have boxes for {letters}{more}: their typeface lacks these; the page shows them"
+        ));
+    }
     let here = std::env::current_dir().unwrap_or_default();
     let page = page.strip_prefix(here).unwrap_or(page);
     if context.json {
