@@ -291,7 +291,7 @@ impl Drawn {
         let mut layers: Vec<(&String, &usize)> = self.unused.iter().collect();
         layers.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
         let told: Vec<String> =
-            layers.iter().take(LISTED).map(|(layer, count)| format!("{count} on layer `{layer}`")).collect();
+            layers.iter().take(LISTED).map(|(layer, count)| format!("`{layer}` ({count})")).collect();
         (!told.is_empty()).then(|| told.join(", "))
     }
 

@@ -394,7 +394,9 @@ impl PatternFile {
             }
             Err(reason) => {
                 let reason = match others.filter(|_| reason.starts_with(NO_OUTLINE)) {
-                    Some(others) => reason.replacen("; accepted", &format!("; there is {others}; accepted"), 1),
+                    Some(others) => {
+                        reason.replacen("; accepted", &format!(", but on other layers: {others}; accepted"), 1)
+                    }
                     None => reason,
                 };
                 self.refused.push(Refused { block: block.to_owned(), line, size, reason });

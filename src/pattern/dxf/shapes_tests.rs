@@ -197,7 +197,11 @@ fn blocks_that_are_no_pieces_are_named() {
     assert!(file.warnings[0].starts_with("block `ARROW` is no piece"), "{:?}", file.warnings);
     // It is refused if the file has nothing else.
     let file = read_all(&sections(&block("ARROW", &line("0", [0.0, 0.0, 1.0, 1.0])), ""));
-    assert!(file.refused[0].reason.starts_with("no outline; there is 1 on layer `0`"), "{:?}", file.refused);
+    assert!(
+        file.refused[0].reason.starts_with("no outline (layer 1), but on other layers: `0` (1); accepted"),
+        "{:?}",
+        file.refused
+    );
 }
 
 #[test]

@@ -379,8 +379,9 @@ fn names_follow_the_code_page() {
     let (bytes, _, _) = encoding_rs::WINDOWS_1251.encode(&text);
     let file = read(&bytes, "a.dxf", None).expect("it reads");
     assert_eq!((file.pieces[2].block.as_str(), file.pieces[2].name.as_str()), ("Рукав", "Рукав"));
-    let report = &FileReport::from(&file).pieces[2];
-    assert_eq!((report.block.as_str(), report.name.as_str()), ("Ðóêàâ", "Рукав"));
+    let report = FileReport::from(&file);
+    assert_eq!((report.pieces[2].block.as_str(), report.pieces[2].name.as_str()), ("Рукав", "Рукав"));
+    assert_eq!(report.as_written().pieces[2].block, "Ðóêàâ");
 }
 
 /// Files of other programs that are damaged on purpose.
