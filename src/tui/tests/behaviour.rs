@@ -426,8 +426,8 @@ fn an_action_acts_on_all_selected_jobs() {
         assert_eq!(bench.press("y").asked(), expect, "{keys}");
     };
     let jobs = |ids: &[i64]| ids.iter().copied().map(JobId).collect::<Vec<_>>();
-    check("4jjjjjj jjVx", "Cancel 3 of the 3 selected jobs?", &[Effect::Do(Command::Cancel(jobs(&[7, 8, 9])))]);
-    check("4/queued<Enter>*x", "Cancel 4 of the 4", &[Effect::Do(Command::Cancel(jobs(&[9, 10, 11, 12])))]);
+    check("4jjjjjj jjVx", "Cancel the 3 selected jobs?", &[Effect::Do(Command::Cancel(jobs(&[7, 8, 9])))]);
+    check("4/queued<Enter>*x", "Cancel the 4 selected jobs?", &[Effect::Do(Command::Cancel(jobs(&[9, 10, 11, 12])))]);
     check("4*x", "Cancel 6 of the 12", &[Effect::Do(Command::Cancel(jobs(&[7, 8, 9, 10, 11, 12])))]);
     check("4**jjjjjjx", "Cancel job 7,", &[Effect::Do(Command::Cancel(jobs(&[7])))]);
 

@@ -98,6 +98,7 @@ pub fn cancel(state: &mut State) -> Vec<Effect> {
             let JobRow { id, garment, size, subject, .. } = job;
             format!("Cancel job {id}, {garment} {size} on {subject} by {}?", text::sim(job.simulator))
         }
+        _ if open.len() == jobs.len() => format!("Cancel the {} selected jobs?", jobs.len()),
         _ => format!("Cancel {} of the {} selected jobs? The others have ended.", open.len(), jobs.len()),
     };
     let effects = vec![Effect::Do(Command::Cancel(open.iter().map(|job| job.id).collect()))];
