@@ -78,6 +78,12 @@ pub struct SeamFile {
     /// Seam allowance of pieces for which the pattern file has only the cut line, mm.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub allowance_mm: f64,
+    /// Shrinkage of the cloth along the grain line from cutting to wearing, percent of the cut length.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub shrinkage_warp_pct: f64,
+    /// Shrinkage across the grain line, percent.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub shrinkage_weft_pct: f64,
     /// Edges, `piece.edge`, that are in no seam on purpose. Edges with a measurement along them need no entry.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub open: Vec<String>,

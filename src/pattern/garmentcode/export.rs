@@ -38,6 +38,7 @@ struct Part {
 /// cannot hold them.
 #[must_use]
 pub fn document(style: &Style) -> Document {
+    let style = &style.as_cut();
     let mut parts: Vec<Part> = Vec::new();
     let mut stitched = Vec::new();
     for seam in &style.seams {

@@ -22,6 +22,7 @@ use super::garment::Role;
 use super::inspect::{FileReport, PieceReport};
 use super::piece::Piece;
 use super::propose::{roles, said};
+use super::style::shrinkage::Shrinkage;
 use super::style::{Edge, EdgeRef, Seam, Style, StylePiece};
 use super::table::unmarked;
 use geom::polyline::{Polyline, self_crossing, signed_area};
@@ -338,6 +339,7 @@ impl Specification {
             measurements: Vec::new(),
             reinforcements: Vec::new(),
             fit_levels: Vec::new(),
+            shrinkage: Shrinkage::default(),
         }
     }
 }

@@ -11,6 +11,7 @@ use crate::seams::{SeamFile, StyleError};
 use crate::style::correspond::shares;
 use crate::style::named::called;
 use crate::style::nest_corners::corners_of;
+use crate::style::shrinkage::Shrinkage;
 use crate::style::{Style, StylePiece};
 use crate::unfold::Fold;
 use geom::V2;
@@ -59,7 +60,7 @@ impl<'a> Redrawn<'a> {
             let Some(&drawn) = called(pieces, &entry.block, entries.size.as_deref()).first() else { continue };
             let fields: Vec<Field> = steps.iter_mut().filter_map(|fields| fields.remove(&number)).collect();
             let fold = pieces[drawn].beside.fold.and_then(Fold::at);
-            let carrier = Carrier { pose: Pose::of(&pieces[drawn], worn, entry.mirror), fields, fold };
+            let carrier = Carrier { pose: Pose::of(&pieces[drawn], worn, entry.mirror, style.shrinkage), fields, fold };
             if let Some(other) = carriers.get(&drawn) {
                 let apart = |p: &V2| (carrier.carried(*p) - other.carried(*p)).norm();
                 let apart_m = pieces[drawn].outline.iter().map(apart).fold(0.0, f64::max);
@@ -166,28 +167,34 @@ pub(crate) fn with_corners(
     Ok(document.to_string().into_bytes())
 }
 
-/// Transform of a piece from drawn to worn: mirrored by the seam file, then turned upright.
+/// Transform of a piece from drawn to worn: mirrored by the seam file, shrunk, then turned upright.
 struct Pose {
     is_mirrored: bool,
+    /// Shrinkage of the cloth, and the grain before the turn.
+    shrinkage: Shrinkage,
+    grain: V2,
     /// Cosine and sine of the turn.
     turn: V2,
 }
 
 impl Pose {
     /// Transform of a drawn piece to a piece of the style. The grain gives the rotation.
-    fn of(drawn: &Piece, worn: &StylePiece, is_mirrored: bool) -> Self {
+    fn of(drawn: &Piece, worn: &StylePiece, is_mirrored: bool, shrinkage: Shrinkage) -> Self {
         let grain = drawn.grain.and_then(|[from, to]| (to - from).try_normalize(0.0)).unwrap_or_else(V2::y);
         let grain = if is_mirrored { V2::new(-grain.x, grain.y) } else { grain };
-        Self { is_mirrored, turn: V2::new(grain.dot(&worn.grain), grain.perp(&worn.grain)) }
+        let turn = V2::new(grain.dot(&worn.grain), grain.perp(&worn.grain));
+        Self { is_mirrored, shrinkage, grain, turn }
     }
 
     fn worn(&self, p: V2) -> V2 {
         let p = if self.is_mirrored { V2::new(-p.x, p.y) } else { p };
+        let p = self.shrinkage.worn(p, self.grain);
         V2::new(self.turn.x * p.x - self.turn.y * p.y, self.turn.y * p.x + self.turn.x * p.y)
     }
 
     fn drawn(&self, p: V2) -> V2 {
         let p = V2::new(self.turn.x * p.x + self.turn.y * p.y, self.turn.x * p.y - self.turn.y * p.x);
+        let p = self.shrinkage.cut(p, self.grain);
         if self.is_mirrored { V2::new(-p.x, p.y) } else { p }
     }
 }

@@ -1,4 +1,4 @@
-//! Collars and stands: a band with one long edge about as long as the neckline. Left out unless the user says that it is
+//! Collars and stands: a band with one long edge about as long as the neckline, or half of one. Left out unless the user says that it is
 //! sewn. It then stands up as it is cut, for no file says along which line a collar is turned down.
 
 use std::ops::RangeInclusive;
@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 use super::align::{Alignment, LEAST_FIT, Labelled, upright};
 use super::ask::Asker;
 use super::recognised::{Recognised, length_m};
-use super::sew::{Chain, EASED_DOUBT, Tailor};
+use super::sew::{Chain, EASED_DOUBT, PLAIN_DOUBT, Tailor};
 use super::shape::Shape;
 use super::worn_pieces::{self, Worn};
 use super::{Class, Face, Hand, Label, PartName, SeamKind};
@@ -18,6 +18,8 @@ use geom::units::mm;
 /// Length of a collar over that of the neckline. A collar is held in by a tenth at most, and a stand laps over at the front
 /// by twice 20 mm. A rib that is stretched further is folded in half, and would stand twice too high.
 const FITS: RangeInclusive<f64> = 0.9..=1.12;
+/// Height of half a collar over its length. A neck is half as high as it is round on one side; half a hood is higher.
+const HIGHEST: f64 = 0.5;
 /// Distance from the middle of a front neckline within which a corner is the centre front, m.
 const AT_CENTRE_M: f64 = 5e-3;
 
@@ -36,15 +38,21 @@ pub fn sewn(
     let neck_m: f64 = chain.iter().map(|along| along.edge.length).sum();
     let is_collar =
         |k: &usize| named[*k].class == Some(Class::Other) && named[*k].part == Some(PartName::Neck) && may_be(*k);
-    let share = |collar: &Recognised| length_m(collar, Label::Lower) / neck_m;
-    let bands = (0..pieces.len()).filter(is_collar).filter_map(|piece| band(pieces, piece, neck_m));
+    let share = |collar: &Recognised| around_m(collar) / neck_m;
+    let readings = |piece: usize| {
+        let is_low = |half: &Recognised| length_m(half, Label::Centre) < HIGHEST * length_m(half, Label::Lower);
+        let half = band(pieces, piece, 0.5 * neck_m).map(halved).filter(is_low);
+        [band(pieces, piece, neck_m), half].into_iter().flatten()
+    };
+    let bands = (0..pieces.len()).filter(is_collar).flat_map(readings);
     let fitting = bands.filter(|collar| FITS.contains(&share(collar)));
     let best = fitting.min_by(|a, b| share(a).ln().abs().total_cmp(&share(b).ln().abs()));
     let Some(collar) = best else { return recognised };
     let text = format!(
-        "`{}`, {:.0} mm for a neckline of {:.0} mm: is it sewn on?",
+        "`{}`{}, {:.0} mm for a neckline of {:.0} mm: is it sewn on?",
         reference(pieces, collar.piece),
-        mm(length_m(&collar, Label::Lower)),
+        if is_half(&collar) { " and its mirror image" } else { "" },
+        mm(around_m(&collar)),
         mm(neck_m)
     );
     match asker.ask(text, ["no: it is left out", "yes, standing up as it is cut"], Some(0)) {
@@ -74,6 +82,40 @@ fn band(pieces: &[Piece], piece: usize, neck_m: f64) -> Option<Recognised> {
     let away = |label: Label| (length_m(&read, label) - neck_m).abs();
     let is_upside_down = away(Label::Top) < away(Label::Lower);
     Some(if is_upside_down { Recognised { alignment: turned(read.alignment), ..read } } else { read })
+}
+
+/// True for half of a collar.
+fn is_half(collar: &Recognised) -> bool {
+    !collar.alignment.template.is_whole
+}
+
+/// Length of the lower edge of a collar all round, m.
+fn around_m(collar: &Recognised) -> f64 {
+    length_m(collar, Label::Lower) * if is_half(collar) { 2.0 } else { 1.0 }
+}
+
+/// A band as half of a collar. Its end at centre back is the squarer one, for the fold of the cloth lies there.
+fn halved(band: Recognised) -> Recognised {
+    let parts = &band.alignment.parts;
+    let ends = (0..parts.len()).filter(|&k| parts[k].label == Label::End);
+    let back = ends.min_by(|&j, &k| off_square(&band.shape, parts[j]).total_cmp(&off_square(&band.shape, parts[k])));
+    let Some(back) = back else { return band };
+    let mut alignment = band.alignment;
+    alignment.parts[back].label = Label::Centre;
+    alignment.template.is_whole = false;
+    alignment.is_mirrored = alignment.parts[back].is_right;
+    Recognised { alignment, face: Some(Face::Back), ..band }
+}
+
+/// Greatest cosine, in magnitude, of the angles between an edge and its neighbours: 0 for two right angles.
+fn off_square(shape: &Shape, part: Labelled) -> f64 {
+    let n = shape.len();
+    let cosine = |corner: usize| {
+        let (before, after) = (shape.points((corner + n - 1) % n), shape.points(corner % n));
+        let ends = before.last_chunk::<2>().zip(after.first_chunk::<2>());
+        ends.map_or(1.0, |([a, b], [c, d])| (b - a).normalize().dot(&(d - c).normalize()).abs())
+    };
+    cosine(part.from).max(cosine(part.from + part.span))
 }
 
 /// A band turned upside down.
@@ -153,11 +195,19 @@ impl<'w> Tailor<'w, '_, '_> {
         [left, of_sleeve(Hand::Left), back, of_sleeve(Hand::Right), right].concat()
     }
 
-    /// Joins a collar to the neckline.
+    /// Joins a collar to the neckline, and its halves to each other.
     pub fn collar(&mut self) {
-        let Some(collar) = self.worn.iter().find(|worn| worn.class == Class::Collar) else { return };
+        let whole = self.find(Class::Collar, None, Hand::Left);
+        let [left, right] = [Hand::Left, Hand::Right].map(|hand| self.find(Class::Collar, Some(Face::Back), hand));
+        // The walk goes from centre front over the wearer's left.
+        let collar: Vec<&'w Worn> = whole.map_or_else(|| left.into_iter().chain(right).collect(), |whole| vec![whole]);
+        if let (Some(left), Some(right)) = (left, right) {
+            let (a, b) = (left.chain(Label::Centre, None), right.chain_back(Label::Centre, None));
+            self.add(SeamKind::CollarBack, a, b, &[left, right], PLAIN_DOUBT);
+        }
         let neckline = self.neckline();
-        let pieces: Vec<&Worn> = neckline.iter().map(|along| along.piece).chain([collar]).collect();
-        self.add(SeamKind::Collar, collar.chain(Label::Lower, None), neckline, &pieces, EASED_DOUBT);
+        let pieces: Vec<&Worn> = neckline.iter().map(|along| along.piece).chain(collar.iter().copied()).collect();
+        let lower = collar.iter().flat_map(|half| half.chain(Label::Lower, None)).collect();
+        self.add(SeamKind::Collar, lower, neckline, &pieces, EASED_DOUBT);
     }
 }

@@ -168,7 +168,7 @@ fn a_collar_is_sewn_to_the_neckline_where_the_user_says_so() {
         assert_eq!(found.seams, plain.seams, "left out unless the user says otherwise");
         let question = found.questions.iter().find(|question| question.text.contains("is it sewn on?"));
         assert_eq!(question.is_some(), is_asked, "{:?}", found.questions);
-        let Some(question) = question else { return };
+        let question = question?;
         let sewn = propose_answered(&pieces, &[(question.number, 'b')]).expect("an answer");
         let seam = sewn.seams.iter().find(|seam| seam.entry.name == "collar").expect("a seam");
         assert_eq!(seam.entry.b, ["front.neck_left", "back.neck", "front.neck_right"]);
@@ -176,9 +176,22 @@ fn a_collar_is_sewn_to_the_neckline_where_the_user_says_so() {
         assert!(sewn.notes.iter().all(|note| !note.contains("COLLAR")), "{:?}", sewn.notes);
         let style = Style::of(&pieces, &sewn.to_drape().expect("sure").seam_file("a"), "a").expect("a style");
         let mesh = style.mesh(30e-3).expect("a mesh");
-        assert!(mesh.pieces.iter().any(|piece| piece.id == "collar"));
+        assert!(mesh.pieces.iter().any(|piece| piece.id.starts_with("collar")));
+        Some(sewn)
     };
     check(strip("COLLAR", neck_mm, 60.0), true);
+    // Half a stand, whose front end slants, drawn for either side of the wearer.
+    let half = 0.5 * neck_mm;
+    let drawn = [(0.0, 0.0, 1), (half, 10.0, 1), (half - 12.0, 45.0, 1), (0.0, 40.0, 1)];
+    let other = [(0.0, 10.0, 1), (half, 0.0, 1), (half, 40.0, 1), (12.0, 45.0, 1)];
+    for points in [&drawn, &other] {
+        let stand = check(piece("COLLAR STAND", points), true).expect("a proposal");
+        let back = stand.seams.iter().find(|seam| seam.entry.name == "collar_back").expect("a seam at the back");
+        assert_eq!(back.entry.a, ["collar_left.centre"]);
+        assert_eq!(back.a_mm.round(), 40.0, "the square end lies at centre back");
+        let neck = stand.seams.iter().find(|seam| seam.entry.name == "collar").expect("a seam");
+        assert_eq!(neck.entry.a, ["collar_left.lower", "collar_right.lower"]);
+    }
     check(strip("COLLAR STAND", 60.0, 1.05 * neck_mm), true);
     // A rib that is folded in half, a hood.
     check(strip("COLLAR RIB", 0.8 * neck_mm, 40.0), false);

@@ -49,6 +49,8 @@ pub enum SeamKind {
     CuffSide(Hand, Hand),
     /// A collar to the neckline.
     Collar,
+    /// Left to right half of a collar.
+    CollarBack,
     /// Front to back of a leg, outside.
     Outseam(Hand),
     /// Front to back of a leg, inside.
@@ -113,6 +115,7 @@ impl fmt::Display for SeamKind {
             Self::CuffSide(hand, Hand::Right) => write!(f, "cuff_{hand}_a"),
             Self::CuffSide(hand, Hand::Left) => write!(f, "cuff_{hand}_b"),
             Self::Collar => f.write_str("collar"),
+            Self::CollarBack => f.write_str("collar_back"),
             Self::Outseam(hand) => write!(f, "outseam_{hand}"),
             Self::Inseam(hand) => write!(f, "inseam_{hand}"),
             Self::Crotch(face) => write!(f, "crotch_{face}"),
@@ -159,6 +162,8 @@ mod tests {
             (SeamKind::CuffEnds(Left), "cuff_left_ends"),
             (SeamKind::CuffSide(Left, Right), "cuff_left_a"),
             (SeamKind::CuffSide(Left, Left), "cuff_left_b"),
+            (SeamKind::Collar, "collar"),
+            (SeamKind::CollarBack, "collar_back"),
             (SeamKind::Outseam(Right), "outseam_right"),
             (SeamKind::Inseam(Left), "inseam_left"),
             (SeamKind::Crotch(Front), "crotch_front"),

@@ -222,7 +222,9 @@ pub fn id_of(candidate: &Recognised, hand: Option<Hand>) -> String {
         Class::Cuff => Some("cuff"),
         Class::Collar => Some("collar"),
     };
-    let parts = [class, candidate.face.map(Face::as_str), hand.map(Hand::as_str)];
+    // Half of a collar reaches from the back to the front.
+    let face = candidate.face.filter(|_| candidate.class != Class::Collar);
+    let parts = [class, face.map(Face::as_str), hand.map(Hand::as_str)];
     parts.into_iter().flatten().collect::<Vec<_>>().join("_")
 }
 

@@ -20,6 +20,8 @@ impl Proposal {
             size: self.size.clone(),
             length_tolerance_mm: DEFAULT_LENGTH_TOLERANCE_MM,
             allowance_mm: mm(self.allowance_m),
+            shrinkage_warp_pct: 0.0,
+            shrinkage_weft_pct: 0.0,
             open: self.open.clone(),
             piece: self.worn.iter().map(|worn| (worn.id.clone(), worn.entry.clone())).collect(),
             seam: self.seams.iter().map(|seam| seam.entry.clone()).collect(),

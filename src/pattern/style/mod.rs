@@ -7,10 +7,12 @@ pub(super) mod nest_corners;
 pub(super) mod openings;
 mod pieces;
 mod read;
+pub mod shrinkage;
 mod upright;
 
 pub use self::pieces::{Edge, StylePiece};
 use self::read::Reader;
+use self::shrinkage::Shrinkage;
 use super::garment::{Band, MeasurementKind};
 use super::piece::Piece;
 use super::seams::{SeamFile, StyleError};
@@ -103,6 +105,8 @@ pub struct Style {
     pub reinforcements: Vec<StyleReinforcement>,
     /// Levels of the body, each with the path of the girth of the pattern there.
     pub fit_levels: Vec<(String, Vec<PathPart>)>,
+    /// Shrinkage of the cloth. The pieces have the lengths after it.
+    pub shrinkage: Shrinkage,
 }
 
 impl Style {
@@ -144,6 +148,7 @@ impl Style {
         let entries = SeamFile::parse(seam_bytes, file)?;
         let reader = Reader { file, entries: &entries };
         reader.only_measures()?;
+        reader.shrink(self)?;
         reader.measure(self)
     }
 

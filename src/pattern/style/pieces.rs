@@ -60,7 +60,7 @@ impl StylePiece {
         self.place(|p| p + by);
     }
 
-    fn place(&mut self, image: impl Fn(V2) -> V2) {
+    pub(super) fn place(&mut self, image: impl Fn(V2) -> V2) {
         for edge in &mut self.edges {
             edge.line = edge.line.mapped(&image);
         }

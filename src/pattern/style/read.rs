@@ -7,6 +7,7 @@ use super::corners::{cut_edge, mirror_edge, mirrored};
 use super::correspond::Lost;
 use super::named::called;
 use super::nest_corners::corners_of;
+use super::shrinkage::Shrinkage;
 use super::upright;
 use super::{Edge, EdgePoint, EdgeRef, PathPart, Seam, Style, StyleMeasurement, StylePiece, StyleReinforcement};
 use crate::piece::Piece;
@@ -44,6 +45,7 @@ impl Reader<'_> {
             measurements: Vec::new(),
             reinforcements: Vec::new(),
             fit_levels: Vec::new(),
+            shrinkage: Shrinkage::default(),
         };
         for (id, entry) in &self.entries.piece {
             let drawn = self.drawn(id, entry, pieces)?;
@@ -67,6 +69,7 @@ impl Reader<'_> {
             }
             style.seams.push(seam);
         }
+        self.shrink(&mut style)?;
         style.pieces.iter_mut().for_each(upright::set_upright);
         self.measure(&mut style)?;
         Ok(style)
@@ -82,6 +85,13 @@ impl Reader<'_> {
                 "[[measurement]] and [fit.*] only".to_owned(),
             )),
         }
+    }
+
+    /// Shrinks the pieces of a style by what the seam file says of the cloth.
+    pub(super) fn shrink(&self, style: &mut Style) -> Result<(), StyleError> {
+        let refused = |[found, accepted]: [String; 2]| self.contradiction("the cloth".to_owned(), found, accepted);
+        style.shrink(Shrinkage::of(self.entries).map_err(refused)?);
+        Ok(())
     }
 
     /// Replaces the measurements and fit levels of a style that has its pieces and seams.

@@ -6,6 +6,7 @@ use geom::units::from_mm;
 use pattern::check::FindingKind;
 use pattern::propose::{self, Question};
 use pattern::seams::SeamFile;
+use pattern::style::shrinkage::Shrinkage;
 use spec::patterns::{self, Nest};
 use store::{InOrigin, Origin, Result};
 
@@ -43,6 +44,8 @@ impl Workpiece {
         let entries = SeamFile::parse(&file.bytes, &file.name).origin(Origin::Pattern)?;
         let nest = Nest::read(&self.pattern, self.unit)?.with_allowance(from_mm(entries.allowance_mm));
         let mut told = vec![nest.sewn_along()];
+        let shrinkage = Shrinkage::of(&entries).ok().filter(|shrinkage| !shrinkage.is_none());
+        told.extend(shrinkage.map(|by| format!("the cloth shrinks by {by}: all lengths are those after that")));
         let own: usize = entries.piece.values().map(|piece| piece.allowance_mm.len()).sum();
         told.extend((own > 0).then(|| format!("{own} edges have an allowance of their own in the seam file")));
         told.extend(nest.unit_remarks().map(str::to_owned));
