@@ -3,7 +3,7 @@
 use super::anatomy::{Anatomy, Chain, Part};
 use super::ways::Heading;
 use super::{Point, PointOfMeasure};
-use crate::propose::Face;
+use crate::propose::{Class, Face, said};
 use crate::style::openings::EdgeEnd;
 use crate::style::{EdgeRef, PathPart};
 
@@ -13,8 +13,40 @@ const HIP_BELOW_WAIST_M: f64 = 0.200;
 /// whose hip is no straight line.
 const STRAIGHT: f64 = 0.9;
 
-/// Points of measure of the skirt of a style. Empty without a side seam.
+/// Points of measure of the skirt of a style.
 pub fn points(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
+    let found = points_at_sides(anatomy);
+    if found.is_empty() { points_all_round(anatomy) } else { found }
+}
+
+/// Points of measure of a skirt in one piece or of gores, which have neither front nor back: waist and hem. Empty where
+/// something else is there but bands.
+fn points_all_round(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
+    let style = anatomy.style();
+    let is_skirt = |piece: usize| said(&style.pieces[piece].id).class == Some(Class::Skirt);
+    let openings = style.openings(&is_skirt);
+    let has_parts = anatomy.parts.iter().any(|part| *part != Part::Other);
+    let [one, other] = openings.as_slice() else { return Vec::new() };
+    if has_parts {
+        return Vec::new();
+    }
+    // What carries the skirt is sewn to its waist. Without a band it hangs from its narrower edge.
+    let is_free = |opening: &[EdgeRef]| opening.iter().all(|edge| anatomy.ways.is_free(*edge));
+    let is_first = match [one, other].map(|opening| is_free(opening)) {
+        [false, true] => true,
+        [true, false] => false,
+        _ => anatomy.length_m(one) <= anatomy.length_m(other),
+    };
+    let (waist, hem) = if is_first { (one, other) } else { (other, one) };
+    let mut held: Vec<EdgeRef> = waist.iter().flat_map(|edge| anatomy.ways.partners(*edge)).copied().collect();
+    held.dedup();
+    let waist = if held.is_empty() { waist } else { &held };
+    let hem = anatomy.beyond(hem, is_skirt).map(|edges| anatomy.along_edges(Point::HalfHem, &edges, 0.5));
+    [anatomy.along_edges(Point::HalfWaist, waist, 0.5)].into_iter().chain(hem).collect()
+}
+
+/// Points of measure of a skirt with side seams. Empty without them.
+fn points_at_sides(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
     let is_skirt = |piece: usize| matches!(anatomy.parts[piece], Part::Skirt(_));
     let openings = anatomy.style().openings(&is_skirt);
     let top_of = |chain: &Chain| anatomy.opening_at(&openings, chain[0].other());

@@ -8,6 +8,18 @@ use crate::{Handle, Style, garmentcode, propose};
 use geom::V2;
 use geom::units::mm;
 
+/// Levels of a body.
+const STAND: Stand = Stand {
+    side_neck_m: 1.50,
+    underbust_m: 1.20,
+    waist_m: 1.10,
+    hip_m: 0.875,
+    crotch_m: 0.80,
+    knee_m: 0.48,
+    forearm_along_m: 0.38,
+    wrist_along_m: 0.60,
+};
+
 /// Checks points of measure against lengths in mm.
 fn check(what: &str, style: &Style, within_mm: f64, expect: &[(Point, f64)]) {
     let points = style.points_of_measure();
@@ -202,6 +214,37 @@ fn the_centre_of_halves_goes_on_over_a_whole_skirt_with_a_round_waist() {
 }
 
 #[test]
+fn a_skirt_of_one_piece_has_a_waist_and_a_hem() {
+    let band = r#"
+        piece.waistband = { block = "B", role = "waistband", edges = { lower = [0, 1], end_right = [1, 2], top = [2, 3], end_left = [3, 0] } }
+        seam = [
+            { name = "side", a = ["skirt.side_right"], b = ["skirt.side_left"] },
+            { name = "waist", a = ["waistband.lower"], b = ["skirt.waist"], ease_mm = 20.0 },
+        ]"#;
+    let alone = r#"seam = [{ name = "side", a = ["skirt.side_right"], b = ["skirt.side_left"] }]"#;
+    let piece = |block: &str, outline: &[[f64; 2]]| crate::Piece {
+        block: block.to_owned(),
+        name: block.to_owned(),
+        outline: outline.iter().map(|[u, v]| V2::new(*u, *v)).collect(),
+        turn_points: outline.iter().map(|[u, v]| V2::new(*u, *v)).collect(),
+        ..crate::Piece::default()
+    };
+    let skirt = piece("S", &[[-0.6, 0.0], [0.6, 0.0], [0.35, 0.5], [-0.35, 0.5]]);
+    let pieces = [skirt, piece("B", &[[0.0, 0.0], [0.72, 0.0], [0.72, 0.04], [0.0, 0.04]])];
+    let top = r#"
+        name = "skirt"
+        piece.skirt = { block = "S", role = "other", edges = { hem = [0, 1], side_right = [1, 2], waist = [2, 3], side_left = [3, 0] } }"#;
+    // The band holds the skirt, and its open ends are no waist.
+    for (rest, waist_mm) in [(band, 360.0), (alone, 350.0)] {
+        let style = Style::read(&pieces, format!("{top}\n{rest}").as_bytes(), "skirt").expect("it is sewn");
+        check("skirt", &style, 0.1, &[(Point::HalfWaist, waist_mm), (Point::HalfHem, 600.0)]);
+        let lengths = style.worn_lengths(&STAND);
+        let waist = lengths.iter().find(|length| length.level == "waist").expect("a waist");
+        assert!(waist.is_held && (mm(waist.length_m) - 2.0 * waist_mm).abs() < 0.1, "{}", waist.length_m);
+    }
+}
+
+#[test]
 fn paths_have_the_lengths_that_are_told_and_lie_on_the_mesh() {
     for model in [Model::Tshirt, Model::Trousers, Model::Teetop, Model::Dress] {
         let style = drafted(model, 0);
@@ -223,16 +266,7 @@ fn paths_have_the_lengths_that_are_told_and_lie_on_the_mesh() {
 
 #[test]
 fn worn_lengths_follow_the_levels_of_the_body() {
-    let stand = Stand {
-        side_neck_m: 1.50,
-        underbust_m: 1.20,
-        waist_m: 1.10,
-        hip_m: 0.875,
-        crotch_m: 0.80,
-        knee_m: 0.48,
-        forearm_along_m: 0.38,
-        wrist_along_m: 0.60,
-    };
+    let stand = STAND;
     let check = |style: &Style, expect_mm: &[(&str, f64)]| {
         let found = style.worn_lengths(&stand);
         for (level, expect) in expect_mm {
