@@ -284,23 +284,31 @@ fn order(level: &str) -> usize {
 /// # Errors
 /// [`StudyError::NotFound`] when the study has no ease of that garment or subject.
 pub fn fit_cards(store: &Store, study: &str, garment: Option<&str>, subject: Option<&str>) -> Result<Vec<FitCard>> {
-    let mut cards = all_fit_cards(store, study)?;
+    let cards = read_cards(store, study, garment, subject)?;
+    if !cards.is_empty() {
+        return Ok(cards);
+    }
+    // All cards, for the names that there are.
+    let mut cards = read_cards(store, study, None, None)?;
     keep(&mut cards, "garment", garment, |card| &card.garment)?;
     keep(&mut cards, "subject", subject, |card| &card.subject)?;
     Ok(cards)
 }
 
-/// All fit cards of a study, in its order of garments and subjects. A garment whose girths are not known has a card
-/// without levels once it has jobs.
-fn all_fit_cards(store: &Store, study: &str) -> Result<Vec<FitCard>> {
+/// Fit cards of one garment or all on one subject or all, in the order of the study. A garment whose girths are not known
+/// has a card without levels once it has jobs.
+fn read_cards(store: &Store, study: &str, garment: Option<&str>, subject: Option<&str>) -> Result<Vec<FitCard>> {
     let sql = "WITH fit AS (
             SELECT * FROM v_fit WHERE study = :study
+            AND garment = coalesce(:garment, garment) AND subject = coalesce(:subject, subject)
         ), place AS (
             SELECT * FROM v_size WHERE study = :study
+            AND garment = coalesce(:garment, garment) AND subject = coalesce(:subject, subject)
         ), cell AS (
             SELECT garment, size, subject FROM fit
             UNION SELECT garment, size, subject FROM job JOIN study USING (study_id)
             WHERE study.name = :study AND is_current
+            AND garment = coalesce(:garment, garment) AND subject = coalesce(:subject, subject)
         )
         SELECT cell.garment, cell.subject, cell.size, place, fit.intended, level, pattern_girth_mm, body_girth_mm,
             ease_mm, least_mm, most_mm, off_mm, worst_level, fit.weight_mm, fit.verdict = 'too_small'
@@ -313,7 +321,8 @@ fn all_fit_cards(store: &Store, study: &str) -> Result<Vec<FitCard>> {
             (SELECT position FROM study_axis JOIN study USING (study_id)
                 WHERE study.name = :study AND axis = 'size' AND study_axis.name = cell.size)";
     let mut statement = store.reader.prepare_cached(sql)?;
-    let rows = statement.query_map(rusqlite::named_params! { ":study": study }, read)?;
+    let of = rusqlite::named_params! { ":study": study, ":garment": garment, ":subject": subject };
+    let rows = statement.query_map(of, read)?;
     let mut cards: Vec<FitCard> = Vec::new();
     for row in rows {
         let Found { garment, subject, size, place, intended, level, worst_level } = row?;
@@ -330,7 +339,7 @@ fn all_fit_cards(store: &Store, study: &str) -> Result<Vec<FitCard>> {
             last.levels.sort_by_key(|level| order(&level.level));
         }
     }
-    let bare = bare(store, study)?;
+    let bare = bare(store, study, garment, subject)?;
     cards.iter_mut().for_each(|card| card.take(&bare));
     Ok(cards)
 }
@@ -352,12 +361,12 @@ const LEAST_BARE_DEG: f64 = 15.0;
 /// Levels of a study that a drape does not cover all round. A direction of a section is bare if it has no cloth and the
 /// hem on that side hangs above the level; where the hem is lower, another limb is in the way. The drape of FEM-GS
 /// counts where there is one.
-fn bare(store: &Store, study: &str) -> Result<Vec<Bare>> {
+fn bare(store: &Store, study: &str, garment: Option<&str>, subject: Option<&str>) -> Result<Vec<Bare>> {
     let sql = "WITH drape AS (
             SELECT job_id, garment, subject, size, row_number() OVER (
                 PARTITION BY garment, subject, size ORDER BY simulator = 'hybrid', repeat
             ) AS rank
-            FROM v_metrics WHERE study = ?1
+            FROM v_metrics WHERE study = ?1 AND garment = coalesce(?3, garment) AND subject = coalesce(?4, subject)
         )
         SELECT garment, subject, size, level, 10.0 * count(*) AS bare_deg
         FROM drape JOIN section USING (job_id) JOIN section_gap USING (job_id, level)
@@ -367,7 +376,7 @@ fn bare(store: &Store, study: &str) -> Result<Vec<Bare>> {
         WHERE rank = 1 AND gap_mm IS NULL AND height_mm < value
         GROUP BY garment, subject, size, level HAVING bare_deg > ?2";
     let mut statement = store.reader.prepare_cached(sql)?;
-    let rows = statement.query_map((study, LEAST_BARE_DEG), |row| {
+    let rows = statement.query_map((study, LEAST_BARE_DEG, garment, subject), |row| {
         Ok(Bare {
             garment: row.get(0)?,
             subject: row.get(1)?,
