@@ -275,13 +275,16 @@ pub(super) fn assumed(store: &Store, jobs: &[JobRow]) -> Result<Vec<Assumed>> {
     Ok(found)
 }
 
-/// Drawing of the first size of each garment, from the pattern of its job.
+/// Drawing of the first size of each garment that is draped, else of its first, from the pattern of the job.
 pub(super) fn drawings(store: &Store, jobs: &[JobRow], draw: fn(&Style) -> String) -> Result<Vec<Drawing>> {
     let mut drawings: Vec<Drawing> = Vec::new();
     for job in jobs {
         if drawings.iter().any(|drawing| drawing.garment == job.garment) {
             continue;
         }
+        // A size that was draped rather than one that only stands in the queue.
+        let is_draped = |other: &&JobRow| other.garment == job.garment && other.status == Status::Done;
+        let job = jobs.iter().find(is_draped).unwrap_or(job);
         let style = catalogue::style_of(store, job.id)?;
         let svg = draw(&style);
         drawings.push(Drawing { garment: job.garment.clone(), size: job.size.clone(), svg });
