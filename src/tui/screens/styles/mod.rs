@@ -3,11 +3,13 @@
 mod actions;
 pub mod asking;
 mod draw;
+mod labels;
 mod pieces;
 mod preview;
 mod question;
 mod seams;
 pub mod state;
+mod view;
 
 use crossterm::event::KeyEvent;
 
