@@ -105,7 +105,7 @@ mod tests {
                 number: k + 1,
                 name: None,
                 line_mm: vec![corners[k], corners[(k + 1) % 4]],
-                length_mm: if k % 2 == 0 { *width_mm } else { 100.0 },
+                length_mm: if k.is_multiple_of(2) { *width_mm } else { 100.0 },
                 seam: None,
                 notches_mm: vec![],
             };

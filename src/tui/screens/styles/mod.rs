@@ -4,6 +4,7 @@ mod actions;
 pub mod asking;
 mod draw;
 mod labels;
+mod numbers;
 mod pieces;
 mod preview;
 mod question;

@@ -210,7 +210,7 @@ fn arrow([x, y]: [f64; 2]) -> &'static str {
 }
 
 /// Centre of a piece's bounding box.
-fn centre(piece: &DeskPiece) -> [f64; 2] {
+pub fn centre(piece: &DeskPiece) -> [f64; 2] {
     let points = || piece.edges.iter().flat_map(|edge| &edge.line_mm);
     [0, 1].map(|k| {
         let low = points().map(|point| point[k]).fold(f64::INFINITY, f64::min);

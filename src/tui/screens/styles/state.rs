@@ -150,7 +150,7 @@ impl SizeLayout {
         of_piece.collect::<Vec<_>>().join(", ")
     }
 
-    /// What stays unsewn, in sentences: edges in no seam, pieces without any seam, pieces that are left out.
+    /// Sentences on what stays unsewn: edges in no seam, pieces without any seam, pieces that are left out.
     #[must_use]
     pub fn left_open(&self) -> String {
         let desk = &self.out.desk;
