@@ -356,7 +356,7 @@ fn what_was_done_is_done_again_by_its_commands() {
     seat.press("<Enter>");
     seat.wait_for("question 1 of");
     seat.press("A");
-    seat.wait_for("all is decided");
+    seat.wait_for("no question is left");
     seat.press("w");
     seat.wait_for("has revision 2");
     seat.press("1a");
