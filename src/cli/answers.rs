@@ -8,7 +8,7 @@ use signal_hook::iterator::Signals;
 
 use super::args::{Audit as AuditArguments, AuditCommand, Format, Sql, StudyPath};
 use super::context::{Context, project_folder};
-use super::progress::Rows;
+use super::progress::Ongoing;
 use super::{CliError, End, Outcome, output, wardrobe};
 use geom::units::mm;
 use results::{Finding, audit};
@@ -57,16 +57,18 @@ pub fn sql(context: &Context, arguments: &Sql) -> Outcome {
     let interrupter = sql::interrupter(&store);
     let mut signals = Signals::new([SIGINT, SIGTERM])?;
     let handle = signals.handle();
-    let mut rows = Rows::new(context.quiet || arguments.output.is_none());
+    let ongoing = Ongoing::new("", context.quiet || arguments.output.is_none());
     let answer = std::thread::scope(|scope| {
         scope.spawn(move || signals.forever().for_each(|_| interrupter.interrupt()));
         let go_on = AtomicBool::new(false);
-        let answer = sql::answer(&store, &query, usize::MAX, &go_on, &mut |read| rows.so_far(read));
+        let answer = sql::answer(&store, &query, usize::MAX, &go_on, &mut |read| {
+            ongoing.tell("", format_args!("{read} rows so far"));
+        });
         handle.close();
         answer
     })?;
     let answer = answer.table;
-    rows.end();
+    ongoing.end();
     let bytes = output::encoded(&answer, format)?;
     match &arguments.output {
         None => output::bytes(&bytes)?,

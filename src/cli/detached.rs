@@ -85,8 +85,7 @@ pub fn follow(context: &Context, store: &Store, study: &str) -> Outcome {
     progress.finish();
     let count = |status: Status| last.iter().filter(|job| job.status == status).count();
     let (queued, failed) = (count(Status::Queued), count(Status::Failed));
-    let ran = Status::ALL.into_iter().map(|status| (status, count(status))).filter(|(_, jobs)| *jobs > 0);
-    let ending = Ending { study: study.to_owned(), ran: ran.collect(), as_before: 0 };
+    let ending = Ending::of_rows(study, last.iter());
     if !is_left.load(Ordering::Relaxed) && !open.is_empty() {
         progress::tell_end(context, &ending);
     }

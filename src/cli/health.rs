@@ -2,8 +2,9 @@
 
 use super::context::{Context, project_folder};
 use super::{End, Outcome};
+use geom::units::mm;
 use results::{Check, checks};
-use store::{Status, Table, Value, read};
+use store::{INSIDE_M, Status, Table, Value, read};
 
 /// Runs `toile doctor`: prints every check with its finding. Exit code 3 if one fails.
 pub fn doctor(context: &Context) -> Outcome {
@@ -32,9 +33,13 @@ pub fn info(context: &Context) -> Outcome {
         let counts = Status::ALL.into_iter().filter(|&status| study.count(status) > 0);
         let counts: Vec<String> = counts.map(|status| format!("{} {}", study.count(status), status.as_str())).collect();
         let paused = if study.paused { ", paused" } else { "" };
+        let inside = match read::inside(&store, &study.name)? {
+            0 => String::new(),
+            inside => format!(", {inside} more than {:.0} mm inside the body", mm(INSIDE_M)),
+        };
         rows.push((
             format!("study {}", study.name),
-            format!("{}{paused}; {}", counts.join(", "), study.path.display()),
+            format!("{}{inside}{paused}; {}", counts.join(", "), study.path.display()),
         ));
     }
     let rows = rows.into_iter().map(|(name, value)| vec![Value::Text(name), Value::Text(value)]);

@@ -9,7 +9,7 @@ use super::args::{
     Stage as StageArgument, View as ViewArgument,
 };
 use super::context::{Context, project_folder};
-use super::progress::Making;
+use super::progress::Ongoing;
 use super::{CliError, End, Outcome, output};
 use render::export::MeshFormat;
 use render::{Rgb, View, lacking_letters};
@@ -170,9 +170,9 @@ fn write_report(
     folder: &Path,
     purpose: Option<Purpose>,
 ) -> Result<(), CliError> {
-    let making = Making::new(context);
-    let made = reporting::report(store, study, purpose, &|part| making.tell(part));
-    making.finish();
+    let ongoing = Ongoing::new("making the report: ", context.quiet);
+    let made = reporting::report(store, study, purpose, &|part| ongoing.tell(part.name, part));
+    ongoing.end();
     files::write_files(folder, &made?)?;
     tell_report(context, &folder.join(PAGE))
 }

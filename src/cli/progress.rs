@@ -1,7 +1,8 @@
 //! Progress on standard error: bars on a terminal, plain lines elsewhere.
 
-use std::cell::Cell;
+use std::cell::{Cell, OnceCell};
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
@@ -11,7 +12,6 @@ use super::context::Context;
 use super::output::note;
 use engine::{Ending, notification};
 use fit::Simulator;
-use results::reporting::Part;
 use store::{JobFilter, JobId, JobRow, Result, Status, Store, read};
 
 /// Label of a job, such as `tshirt S ii fem`.
@@ -19,44 +19,61 @@ pub fn label(garment: &str, size: &str, subject: &str, simulator: Simulator) -> 
     format!("{garment} {size} {subject} {}", simulator.as_str())
 }
 
-/// Numbers of rows on standard error while a long query goes on: in place on a terminal, line by line elsewhere.
-pub struct Rows {
+/// A line on standard error about work that goes on for more than a second: in place on a terminal; elsewhere a line for
+/// each new part of the work, and every ten seconds.
+pub struct Ongoing {
+    /// Words before every text.
+    head: &'static str,
     is_quiet: bool,
     /// Line of a terminal, once there is one.
-    line: Option<ProgressBar>,
-    /// Time of the next number.
-    next: Instant,
+    line: OnceCell<ProgressBar>,
+    /// Part that was told last.
+    part: Cell<&'static str>,
+    /// Time from which the next text of the same part is told.
+    next: Cell<Instant>,
+    /// Time from which anything is told.
+    first: Instant,
 }
 
-impl Rows {
-    /// Time before the first number, and between two of them on a terminal; between two lines elsewhere.
+impl Ongoing {
+    /// Time before the first text, and between two of them on a terminal; between two lines elsewhere.
     const SOON: Duration = Duration::from_secs(1);
     const LATER: Duration = Duration::from_secs(10);
 
-    /// Numbers that nobody is told, or everybody.
+    /// Work of which nothing is told yet. Quiet work is never told.
     #[must_use]
-    pub fn new(is_quiet: bool) -> Self {
-        Self { is_quiet, line: None, next: Instant::now() + Self::SOON }
+    pub fn new(head: &'static str, is_quiet: bool) -> Self {
+        let first = Instant::now() + Self::SOON;
+        let (line, part) = (OnceCell::new(), Cell::new(""));
+        Self { head, is_quiet, line, part, next: Cell::new(first), first }
     }
 
-    /// Tells the number of rows so far, if that is due.
-    pub fn so_far(&mut self, rows: usize) {
-        if self.is_quiet || Instant::now() < self.next {
+    /// Tells how far a part of the work is, if that is due. Work without parts gives an empty one.
+    pub fn tell(&self, part: &'static str, text: impl fmt::Display) {
+        let now = Instant::now();
+        let is_new = now >= self.first && self.part.get() != part;
+        if self.is_quiet || !(is_new || now >= self.next.get()) {
             return;
         }
-        let text = format!("{rows} rows so far");
+        self.part.set(part);
+        let text = format!("{}{text}", self.head);
         if std::io::stderr().is_terminal() {
-            self.line.get_or_insert_with(ProgressBar::new_spinner).set_message(text);
-            self.next = Instant::now() + Self::SOON;
+            self.line.get_or_init(Self::spinner).set_message(text);
+            self.next.set(now + Self::SOON);
         } else {
             note(&text);
-            self.next = Instant::now() + Self::LATER;
+            self.next.set(now + Self::LATER);
         }
     }
 
-    /// Takes the line away.
+    fn spinner() -> ProgressBar {
+        let style = ProgressStyle::with_template("{spinner} {msg} {elapsed}");
+        ProgressBar::new_spinner().with_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()))
+    }
+
+    /// Takes the line away from a terminal.
     pub fn end(self) {
-        if let Some(line) = self.line {
+        if let Some(line) = self.line.into_inner() {
             line.finish_and_clear();
         }
     }
@@ -175,45 +192,6 @@ impl Progress {
     }
 }
 
-/// Time after which the parts of a report are told where standard error is no terminal.
-const SOON: Duration = Duration::from_secs(1);
-
-/// Line that names the part of a report being made: on a terminal while it is made, elsewhere a line for each part
-/// after the first second.
-pub struct Making {
-    began: Instant,
-    bar: Option<ProgressBar>,
-    told: Cell<&'static str>,
-    quiet: bool,
-}
-
-impl Making {
-    /// Line without a part yet.
-    pub fn new(context: &Context) -> Self {
-        let bar = (!context.quiet && std::io::stderr().is_terminal()).then(|| {
-            let style = ProgressStyle::with_template("making the report: {msg} {elapsed}");
-            ProgressBar::new_spinner().with_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()))
-        });
-        Self { began: Instant::now(), bar, told: Cell::new(""), quiet: context.quiet }
-    }
-
-    /// Names the part that is made now.
-    pub fn tell(&self, part: Part) {
-        match &self.bar {
-            Some(bar) => bar.set_message(part.to_string()),
-            None if !self.quiet && self.began.elapsed() > SOON && self.told.replace(part.name) != part.name => {
-                eprintln!("making the report: {}", part.name);
-            }
-            None => {}
-        }
-    }
-
-    /// Removes the line from a terminal.
-    pub fn finish(&self) {
-        self.bar.iter().for_each(ProgressBar::finish_and_clear);
-    }
-}
-
 /// Line about a job that ended.
 fn ended(job: &JobRow) -> String {
     let what = label(&job.garment, &job.size, &job.subject, job.simulator);
@@ -224,5 +202,30 @@ fn ended(job: &JobRow) -> String {
         (status, _, Some(error)) => format!("{}: {error}", status.as_str()),
         (status, ..) => status.as_str().to_owned(),
     };
-    format!("job {} {what}: {how}{took}", job.id)
+    let inside = job.inside().map(|words| format!(", {words} the body")).unwrap_or_default();
+    format!("job {} {what}: {how}{inside}{took}", job.id)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_is_told_once_and_again_after_a_while() {
+        let ongoing = Ongoing::new("making ", false);
+        ongoing.tell("pictures", "pictures");
+        assert_eq!(ongoing.part.get(), "", "short work is not told");
+        let past = Ongoing { first: Instant::now(), ..Ongoing::new("making ", false) };
+        past.tell("pictures", "pictures, 1 of 2");
+        assert_eq!(past.part.get(), "pictures");
+        let next = past.next.get();
+        past.tell("pictures", "pictures, 2 of 2");
+        assert_eq!(past.next.get(), next, "the same part waits");
+        past.tell("pages", "pages");
+        assert!(past.part.get() == "pages" && past.next.get() > next);
+        let quiet = Ongoing { first: Instant::now(), ..Ongoing::new("", true) };
+        quiet.tell("pages", "pages");
+        assert_eq!(quiet.part.get(), "");
+        past.end();
+    }
 }

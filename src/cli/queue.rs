@@ -69,7 +69,8 @@ fn list(store: &Store, study: Option<&str>, all: bool) -> Result<Table, StudyErr
     }
     let filter = JobFilter { study: study.map(str::to_owned), superseded: all, ..JobFilter::default() };
     let columns = [
-        "job", "study", "garment", "size", "subject", "sim", "status", "prio", "done", "ei", "wall_s", "tries", "error",
+        "job", "study", "garment", "size", "subject", "sim", "status", "prio", "done", "ei", "inside", "wall_s",
+        "tries", "error",
     ];
     // Where nothing may be written, they are not back in the queue.
     let interrupted = queue::interrupted(store)?;
@@ -79,6 +80,7 @@ fn list(store: &Store, study: Option<&str>, all: bool) -> Result<Table, StudyErr
         let real = |number: Option<f64>| number.map_or(Value::Null, Value::Real);
         let percent =
             job.progress.as_ref().map(|progress| format!("{:.0} % {}", progress.fraction * 100.0, progress.phase));
+        let inside = job.inside();
         vec![
             Value::Integer(job.id.0),
             Value::Text(job.study),
@@ -90,6 +92,7 @@ fn list(store: &Store, study: Option<&str>, all: bool) -> Result<Table, StudyErr
             Value::Integer(job.priority),
             percent.map_or(Value::Null, Value::Text),
             real(job.ei),
+            inside.map_or(Value::Null, Value::Text),
             real(job.wall_ms.map(|ms| ms as f64 / 1e3)),
             Value::Integer(i64::from(job.attempts)),
             lost.map(ToString::to_string).or(job.error).map_or(Value::Null, Value::Text),

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use crate::enqueue::Planned;
-use store::{JobFilter, JobId, Result, Status, Store, read};
+use geom::units::mm;
+use store::{INSIDE_M, JobFilter, JobId, JobRow, Result, Status, Store, read};
 
 /// Most letters of a notification; desktops cut longer ones.
 const LONGEST: usize = 200;
@@ -16,6 +17,8 @@ pub struct Ending {
     pub study: String,
     /// Jobs that were to run, by the state that they are in now.
     pub ran: BTreeMap<Status, usize>,
+    /// Number of results among them that lie inside the body by more than [`store::INSIDE_M`].
+    pub inside: usize,
     /// Number of jobs that had their results before.
     pub as_before: usize,
 }
@@ -27,15 +30,21 @@ impl Ending {
     /// When the database cannot be read.
     pub fn of(store: &Store, study: &str, planned: &[Planned]) -> Result<Self> {
         let jobs = read::jobs(store, &JobFilter { study: Some(study.to_owned()), ..JobFilter::default() })?;
-        let states: BTreeMap<JobId, Status> = jobs.iter().map(|job| (job.id, job.status)).collect();
-        let mut ran = BTreeMap::new();
-        for job in planned.iter().filter(|job| job.why.will_run()) {
-            if let Some(status) = states.get(&job.id) {
-                *ran.entry(*status).or_default() += 1;
-            }
+        let rows: BTreeMap<JobId, &JobRow> = jobs.iter().map(|job| (job.id, job)).collect();
+        let ran = planned.iter().filter(|job| job.why.will_run()).filter_map(|job| rows.get(&job.id).copied());
+        let mut ending = Self::of_rows(study, ran);
+        ending.as_before = planned.iter().filter(|job| !job.why.will_run()).count();
+        Ok(ending)
+    }
+
+    /// Ending of a run that was to make these jobs, and no others.
+    pub fn of_rows<'a>(study: &str, jobs: impl Iterator<Item = &'a JobRow>) -> Self {
+        let mut ending = Self { study: study.to_owned(), ran: BTreeMap::new(), inside: 0, as_before: 0 };
+        for job in jobs {
+            *ending.ran.entry(job.status).or_default() += 1;
+            ending.inside += usize::from(job.inside().is_some());
         }
-        let as_before = planned.iter().filter(|job| !job.why.will_run()).count();
-        Ok(Self { study: study.to_owned(), ran, as_before })
+        ending
     }
 }
 
@@ -55,6 +64,9 @@ impl fmt::Display for Ending {
             .into_iter()
             .filter_map(|status| Some(format!("{} {}", self.ran.get(&status)?, words(status))))
             .collect();
+        if self.inside > 0 {
+            parts.push(format!("{} more than {:.0} mm inside the body", self.inside, mm(INSIDE_M)));
+        }
         if self.as_before > 0 || parts.is_empty() {
             parts.push(format!("{} up to date before", self.as_before));
         }
@@ -76,18 +88,20 @@ mod tests {
 
     #[test]
     fn the_end_is_told_in_numbers() {
-        let check = |ran: &[(Status, usize)], as_before: usize, expect: &str| {
-            let ending = Ending { study: "tops".into(), ran: ran.iter().copied().collect(), as_before };
+        let check = |ran: &[(Status, usize)], inside: usize, as_before: usize, expect: &str| {
+            let ending = Ending { study: "tops".into(), ran: ran.iter().copied().collect(), inside, as_before };
             assert_eq!(ending.to_string(), expect);
         };
-        check(&[(Status::Failed, 2), (Status::Done, 5)], 0, "tops: 5 done, 2 failed");
+        check(&[(Status::Failed, 2), (Status::Done, 5)], 0, 0, "tops: 5 done, 2 failed");
+        check(&[(Status::Done, 5)], 1, 0, "tops: 5 done, 1 more than 5 mm inside the body");
         check(
             &[(Status::NotConverged, 1), (Status::Queued, 3)],
+            0,
             4,
             "tops: 1 not at rest, 3 left in the queue, 4 up to date before",
         );
-        check(&[], 12, "tops: 12 up to date before");
-        check(&[], 0, "tops: 0 up to date before");
+        check(&[], 0, 12, "tops: 12 up to date before");
+        check(&[], 0, 0, "tops: 0 up to date before");
     }
 
     #[test]

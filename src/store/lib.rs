@@ -29,8 +29,9 @@ pub use evidence::PUBLISHED;
 pub use live::{Live, LiveFrame};
 pub use read::JobFilter;
 pub use rows::{
-    Cell, ChiRow, EaseRow, Encoder, FitCell, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, OutfitRow,
-    RecommendationRow, SizeKey, StageKind, StageRow, Status, StudyRow, SubjectId, Table, Value, distinct,
+    Cell, ChiRow, EaseRow, Encoder, FitCell, Grid, INSIDE_M, JobId, JobProgress, JobRow, LogLine, MetricsRow,
+    OutfitRow, RecommendationRow, SizeKey, StageKind, StageRow, Status, StudyRow, SubjectId, Table, Value, distinct,
+    inside_words,
 };
 pub use saved::{SavedQuery, save_query, saved_queries, saved_query};
 pub use sql::{Interrupter, Relation, SqlAnswer};

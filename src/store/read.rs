@@ -8,11 +8,11 @@ use crate::columns::{fit_class, simulator, status};
 use crate::database::Store;
 use crate::error::{Result, StudyError};
 use crate::rows::{
-    Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, OutfitRow,
+    Cell, ChiRow, EaseRow, FitCell, Grid, INSIDE_M, JobId, JobProgress, JobRow, LogLine, MetricsRow, OutfitRow,
     RecommendationRow, StageRow, Status, StudyRow,
 };
 use fit::{Cuts, Simulator};
-use geom::units::from_mm;
+use geom::units::{from_mm, mm};
 use sim::Step;
 
 /// Selection of jobs; `None` in a field accepts all.
@@ -110,6 +110,7 @@ pub fn grid(store: &Store, study: &str, garment: &str) -> Result<Grid> {
             status: job.map(|job| job.status),
             fraction: job.and_then(|job| job.progress.as_ref()).map(|progress| progress.fraction),
             ei: job.and_then(|job| job.ei),
+            is_inside: job.is_some_and(|job| job.inside().is_some()),
         }
     };
     let cells_of_size = |size: &String| -> Vec<Vec<Cell>> {
@@ -162,6 +163,18 @@ pub fn job(store: &Store, id: JobId) -> Result<JobRow> {
     let sql = format!("{SELECT_JOB} WHERE job_id = ?");
     let found = store.reader.prepare_cached(&sql)?.query_row([id.0], job_row).optional()?;
     found.ok_or_else(|| StudyError::NotFound { what: "job", name: id.to_string(), known: vec![] })
+}
+
+/// Number of current results of a study that lie inside the body by more than [`INSIDE_M`].
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn inside(store: &Store, study: &str) -> Result<usize> {
+    let sql = "SELECT count(*) FROM job JOIN study USING (study_id) JOIN metrics USING (job_id)
+        WHERE study.name = ? AND is_current AND penetration_max_mm > ?";
+    let count: i64 =
+        store.reader.prepare_cached(sql)?.query_row(rusqlite::params![study, mm(INSIDE_M)], |row| row.get(0))?;
+    Ok(count as usize)
 }
 
 /// Every measurement of a result, by the stage at which it was taken and by its number.
@@ -354,17 +367,17 @@ fn rows<T>(
 /// The columns that [`job_row`] reads.
 const SELECT_JOB: &str =
     "SELECT job_id, study.name, garment, size, subject, simulator, repeat, status, is_current, priority,
-        attempts, error, queued_at, started_at, finished_at, wall_ms, metrics.ei,
+        attempts, error, queued_at, started_at, finished_at, wall_ms, metrics.ei, metrics.penetration_max_mm,
         phase, fraction, p.iteration, p.level, p.residual, p.seam_gap_mm, p.e_chi
     FROM job JOIN study USING (study_id) LEFT JOIN metrics USING (job_id)
         LEFT JOIN job_progress AS p USING (job_id)";
 
 fn job_row(row: &Row<'_>) -> rusqlite::Result<JobRow> {
     let status = status(row, 7)?;
-    let phase: Option<String> = row.get(17)?;
+    let phase: Option<String> = row.get(18)?;
     let progress = match phase {
         Some(phase) if status == Status::Running => {
-            Some(JobProgress { phase, fraction: row.get(18)?, step: step(row, 19)? })
+            Some(JobProgress { phase, fraction: row.get(19)?, step: step(row, 20)? })
         }
         _ => None,
     };
@@ -386,6 +399,7 @@ fn job_row(row: &Row<'_>) -> rusqlite::Result<JobRow> {
         finished_at_ms: row.get(14)?,
         wall_ms: row.get(15)?,
         ei: row.get(16)?,
+        penetration_max_m: row.get::<_, Option<f64>>(17)?.map(from_mm),
         progress,
     })
 }

@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use fit::{FitClass, Simulator};
+use geom::units::mm;
 use pattern::table;
 use sim::{Progress, Step};
 
@@ -191,9 +192,27 @@ pub struct JobRow {
     pub progress: Option<JobProgress>,
     /// EI of the result, where there is one.
     pub ei: Option<f64>,
+    /// Deepest penetration of the result into the body, m, where there is one.
+    pub penetration_max_m: Option<f64>,
+}
+
+/// Depth inside the body from which the state of a result tells it, m. Where a garment is large enough, both simulators
+/// leave 0 to 1 mm (docs/hybrid.md): more than this is cloth that could not lie there.
+pub const INSIDE_M: f64 = 5e-3;
+
+/// Depth of a drape inside the body in words, `≈ 37 mm inside`; `None` up to [`INSIDE_M`].
+#[must_use]
+pub fn inside_words(penetration_max_m: f64) -> Option<String> {
+    (penetration_max_m > INSIDE_M).then(|| format!("≈ {:.0} mm inside", mm(penetration_max_m)))
 }
 
 impl JobRow {
+    /// Depth of the result inside the body in words; `None` without a result, and up to [`INSIDE_M`].
+    #[must_use]
+    pub fn inside(&self) -> Option<String> {
+        self.penetration_max_m.and_then(inside_words)
+    }
+
     /// Estimated time left, ms: (time since the start) * (1 - f) / f, where f is the share done.
     #[must_use]
     pub fn eta_ms(&self, now_ms: i64) -> Option<i64> {
@@ -214,6 +233,8 @@ pub struct Cell {
     pub fraction: Option<f64>,
     /// EI of the job's result.
     pub ei: Option<f64>,
+    /// True where the result lies inside the body by more than [`INSIDE_M`].
+    pub is_inside: bool,
 }
 
 /// Fit of one size on one subject, from the ease of the level that decides.

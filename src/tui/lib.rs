@@ -48,6 +48,7 @@ use keys::file as keys_file;
 use messages::effect::Effect;
 use messages::message::Message;
 use screens::state::{Abilities, Folders};
+use store::owner::host;
 use store::{Encoder, StudyError};
 use terminal::Display;
 use terminal::clipboard;
@@ -122,6 +123,8 @@ pub fn run(options: Options) -> Result<Left, TuiError> {
     app.screens.sql.editor.edit_as(keys.editing);
     let named = options.is_database_named.then(|| std::path::absolute(&options.database)).transpose()?;
     app.state.setup.database = named;
+    let user = env("USER").or_else(|| env("LOGNAME")).filter(|user| !user.is_empty());
+    app.state.setup.login = user.map_or_else(host, |user| format!("{user}@{}", host()));
     // Over SSH the terminal is elsewhere, and its own selection of text matters more.
     app.state.terminal.has_mouse = env("SSH_TTY").is_none_or(|terminal| terminal.is_empty());
     let path = session::path(&options.database, &env);

@@ -37,7 +37,7 @@ fn whole_session(columns: u16, rows: u16) {
     // Sizes S and M of the drafted T-shirt on male-ii, by Hybrid-GS.
     seat.press("a");
     seat.wait_for("F5 make it");
-    seat.press("<Tab> <Down> <Tab><Down><Down><Down><Down><Down><Down><Down> <Tab> <Tab>");
+    seat.press("<Tab>l<Down> <Down> <Tab><Down><Down><Down><Down><Down><Down><Down> <Tab> <Tab>");
     seat.wait_for("cotton_shirting_light");
     let form = seat.wait_for("1 subject × 2 sizes × 1 simulator = 2 simulations");
     assert!(form.contains("[x] male-ii"), "{form}");
@@ -356,7 +356,7 @@ fn what_was_done_is_done_again_by_its_commands() {
     seat.press("<Enter>");
     seat.wait_for("question 1 of");
     seat.press("A");
-    seat.wait_for("all is decided");
+    seat.wait_for("no question is left");
     seat.press("w");
     seat.wait_for("has revision 2");
     seat.press("1a");

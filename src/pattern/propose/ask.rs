@@ -16,6 +16,8 @@ pub struct Question {
     pub taken: Option<usize>,
     /// True if the user answered.
     pub is_answered: bool,
+    /// Edges that the question is about, `PIECE.EDGE` of the proposal; empty for a question about none.
+    pub about: Vec<String>,
 }
 
 /// Error: an answer to a question, or with a choice, that does not exist.
@@ -48,12 +50,26 @@ pub type Answers = BTreeMap<String, usize>;
 impl Question {
     /// Makes a question without choices.
     pub(super) fn told(text: String) -> Self {
-        Self { number: 0, text, choices: Vec::new(), taken: None, is_answered: false }
+        Self { number: 0, text, choices: Vec::new(), taken: None, is_answered: false, about: Vec::new() }
     }
 
     /// Parses a question as `Display` writes it.
     #[must_use]
     pub fn parse(written: &str) -> Self {
+        let mut question = Self::parse_choices(written);
+        let edges = question.text.strip_suffix(']').and_then(|text| text.rsplit_once(" ["));
+        let is_edge = |name: &&str| name.contains('.') && !name.contains([' ', '`']);
+        if let Some((text, edges)) = edges
+            && edges.split(", ").all(|name| is_edge(&name))
+        {
+            question.about = edges.split(", ").map(str::to_owned).collect();
+            question.text = text.to_owned();
+        }
+        question
+    }
+
+    /// Parses a question whose text still has its edges.
+    fn parse_choices(written: &str) -> Self {
         let mut question = Self::told(written.to_owned());
         let Some((text, mut rest)) = written.split_once(" a: ") else { return question };
         let taken = [(" (answered: ", ")"), (" (", " is taken)")].into_iter().find_map(|(before, after)| {
@@ -82,9 +98,13 @@ impl Question {
 }
 
 impl fmt::Display for Question {
-    /// Writes the question with its choices: `which is it? a: the right one; b: the left one (a is taken)`.
+    /// Writes the question with its edges and choices: `which is it? [front.hem] a: the right one; b: the left one (a is
+    /// taken)`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.text)?;
+        if !self.about.is_empty() {
+            write!(f, " [{}]", self.about.join(", "))?;
+        }
         for (index, choice) in self.choices.iter().enumerate() {
             let mark = if index == 0 { "" } else { ";" };
             write!(f, "{mark} {}: {choice}", Self::letter(index))?;
@@ -153,10 +173,14 @@ impl<'a> Asker<'a> {
         self.keep(Question::told(text));
     }
 
-    /// Collects a question, once if it is asked for the right and the left side.
+    /// Collects a question, once if it is asked for the right and the left side: then it is about the edges of both.
     fn keep(&mut self, question: Question) {
-        if !self.asked.iter().any(|asked| asked.text == question.text) {
-            self.asked.push(question);
+        match self.asked.iter_mut().find(|asked| asked.text == question.text) {
+            Some(asked) => {
+                let new = question.about.into_iter().filter(|edge| !asked.about.contains(edge)).collect::<Vec<_>>();
+                asked.about.extend(new);
+            }
+            None => self.asked.push(question),
         }
     }
 
@@ -167,10 +191,21 @@ impl<'a> Asker<'a> {
         choices: impl IntoIterator<Item = S>,
         stands: Option<usize>,
     ) -> Option<usize> {
+        self.ask_at(Vec::new(), text, choices, stands)
+    }
+
+    /// Asks a question about some edges, `PIECE.EDGE`, as [`Asker::ask`] does.
+    pub fn ask_at<S: Into<String>>(
+        &mut self,
+        about: Vec<String>,
+        text: String,
+        choices: impl IntoIterator<Item = S>,
+        stands: Option<usize>,
+    ) -> Option<usize> {
         let choices: Vec<String> = choices.into_iter().map(Into::into).collect();
         let answer = self.answers.get(&text).copied().filter(|&answer| answer < choices.len());
         let taken = answer.or(stands);
-        self.keep(Question { number: 0, text, choices, taken, is_answered: answer.is_some() });
+        self.keep(Question { number: 0, text, choices, taken, is_answered: answer.is_some(), about });
         taken
     }
 
@@ -213,15 +248,30 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_question_for_both_sides_is_about_the_edges_of_both() {
+        let answers = Answers::new();
+        let mut asker = Asker::new(&answers, BTreeSet::new());
+        for hand in ["right", "left", "right"] {
+            asker.ask_at(vec![format!("sleeve_{hand}.underarm")], "which?".to_owned(), ["one", "other"], Some(0));
+        }
+        let asked = asker.into_asked().questions;
+        assert_eq!(asked.len(), 1);
+        assert_eq!(asked[0].about, ["sleeve_right.underarm", "sleeve_left.underarm"]);
+    }
+
+    #[test]
     fn a_question_is_read_as_it_is_written() {
         let check = |text: &str, choices: &[&str], taken: Option<usize>, is_answered: bool| {
-            let choices = choices.iter().map(|&choice| choice.to_owned()).collect();
-            let question = Question { number: 0, text: text.to_owned(), choices, taken, is_answered };
-            assert_eq!(Question::parse(&question.to_string()), question);
+            for about in [&[][..], &["front.hem"], &["sleeve_back_right.underarm", "sleeve_front_right.underarm"]] {
+                let [choices, about] = [choices, about].map(|all| all.iter().map(|&one| one.to_owned()).collect());
+                let question = Question { number: 0, text: text.to_owned(), choices, taken, is_answered, about };
+                assert_eq!(Question::parse(&question.to_string()), question);
+            }
         };
         check("is it a seam?", &["a seam or a fold", "an opening (a slit); or both"], Some(1), false);
         check("which piece is the sleeve?", &["STYLE SS", "STYLE SS1"], Some(0), true);
         check("where does `waistband` open?", &[], None, false);
+        check("does it hold for [SIZE 38]", &[], None, false);
         check("which (of these) is it?", &["one"], None, false);
     }
 }

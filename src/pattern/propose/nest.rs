@@ -7,7 +7,7 @@ use super::{Proposal, ProposedSeam, Question};
 use crate::piece::Piece;
 use crate::progression::{Leap, leaps};
 use crate::seam_edit::Sizes;
-use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, Ease, RATIO_DOUBT, SAME_EASE, StyleError};
+use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, Ease, RATIO_DOUBT, SAME_EASE, SeamEntry, StyleError};
 use crate::size_order;
 use crate::style::{Seam, Style};
 use geom::units::mm;
@@ -41,15 +41,16 @@ impl Proposal {
         }
         if let Some((_, error)) = failed.first() {
             let sizes: Vec<&str> = failed.iter().map(|(size, _)| *size).collect();
-            self.tell(format!("it does not hold for size {}: {error}", sizes.join(", ")));
+            self.tell(format!("it does not hold for size {}: {error}", sizes.join(", ")), Vec::new());
         }
         let Some(made_on) = sewn.iter().position(|sized| sized.size == sizes.name) else { return };
         for number in 0..self.seams.len() {
             if let Some(doubt) = self.ease_in(number, &sewn, made_on) {
-                self.tell(doubt);
+                let SeamEntry { a, b, .. } = &self.seams[number].entry;
+                self.tell(doubt, a.iter().chain(b).cloned().collect());
             }
         }
-        doubted_leaps(&sewn).into_iter().for_each(|doubt| self.tell(doubt));
+        doubted_leaps(&sewn).into_iter().for_each(|doubt| self.tell(doubt, Vec::new()));
     }
 
     /// Records the ease of a seam in every size whose length ratio is plausible. Returns a question about the other
@@ -72,10 +73,10 @@ impl Proposal {
         doubt(seam, sewn, &sides_mm, &doubted)
     }
 
-    /// Adds a question without choices.
-    fn tell(&mut self, text: String) {
+    /// Adds a question without choices about some edges.
+    fn tell(&mut self, text: String, about: Vec<String>) {
         let number = self.questions.iter().map(|question| question.number).max().unwrap_or(0) + 1;
-        self.questions.push(Question { number, ..Question::told(text) });
+        self.questions.push(Question { number, about, ..Question::told(text) });
     }
 
     /// Style of another size, whatever the length differences of its seams.

@@ -101,6 +101,7 @@ impl<'w> Tailor<'w, '_, '_> {
         if a.is_empty() || b.is_empty() {
             return;
         }
+        let about = || a.iter().chain(&b).map(Along::to_string).collect::<Vec<_>>();
         let difference = (a_mm - b_mm).abs() / a_mm.max(b_mm);
         let sure = pieces.iter().map(|piece| piece.confidence).fold(1.0, f64::min);
         // Half pieces do not show how they are joined at the centre. The user's answer does.
@@ -116,7 +117,7 @@ impl<'w> Tailor<'w, '_, '_> {
                     kind.on_either_side()
                 );
                 let choices = ["as the outlines lie", "with one side turned round"];
-                is_turned = self.asker.ask(text, choices, Some(0)) == Some(1);
+                is_turned = self.asker.ask_at(about(), text, choices, Some(0)) == Some(1);
                 confidence *= NOTCHED_DOUBT;
             }
             Evidence::None => {}
@@ -129,7 +130,7 @@ impl<'w> Tailor<'w, '_, '_> {
                 a_mm.max(b_mm)
             );
             let eased = format!("one to the other, {:.0} mm eased in", (a_mm - b_mm).abs());
-            if self.asker.ask(text, ["nothing".to_owned(), eased], Some(0)) != Some(1) {
+            if self.asker.ask_at(about(), text, ["nothing".to_owned(), eased], Some(0)) != Some(1) {
                 return;
             }
             confidence = ANSWERED;
@@ -358,12 +359,16 @@ impl<'w> Tailor<'w, '_, '_> {
                 continue;
             }
             let [right, left] = Hand::BOTH.map(|hand| self.along(class, label, face, hand));
-            let a = right.iter().flat_map(|(worn, label)| worn.chain(*label, None)).collect();
-            let b = left.iter().flat_map(|(worn, label)| worn.chain_back(*label, None)).collect();
+            let a: Chain<'_> = right.iter().flat_map(|(worn, label)| worn.chain(*label, None)).collect();
+            let b: Chain<'_> = left.iter().flat_map(|(worn, label)| worn.chain_back(*label, None)).collect();
             let pieces: Vec<&Worn> = right.iter().chain(&left).map(|(worn, _)| *worn).collect();
             let kind = kind(face);
             let choices = ["a seam or a fold", "an opening"];
-            let is_open = kind.is_centre() && self.asker.ask(centre_question(&kind), choices, Some(0)) == Some(1);
+            let mut asked = || {
+                let about = a.iter().chain(&b).map(Along::to_string).collect();
+                self.asker.ask_at(about, centre_question(&kind), choices, Some(0))
+            };
+            let is_open = kind.is_centre() && asked() == Some(1);
             if !is_open {
                 self.add(kind, a, b, &pieces, PLAIN_DOUBT);
             }

@@ -53,7 +53,8 @@ impl App {
         }
         let counts = Status::ALL.into_iter().map(|status| (status, study.count(status)));
         let ran = counts.filter(|(_, jobs)| *jobs > 0).collect();
-        Some(Ending { study: study.name.clone(), ran, as_before: 0 }.to_string())
+        let inside = now.jobs.iter().filter(|job| job.is_current && job.inside().is_some()).count();
+        Some(Ending { study: study.name.clone(), ran, inside, as_before: 0 }.to_string())
     }
 
     /// Closes the form whose entry was saved; a refusal is shown in the form instead.

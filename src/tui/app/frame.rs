@@ -21,6 +21,9 @@ use store::Status;
 /// Terminal width, columns, from which the first line has the names of all screens, at least short ones.
 const SHORT: u16 = 66;
 
+/// Fewest columns for the name of the study, if it has as many.
+const LEAST_NAME: usize = 8;
+
 /// Draws tabs, body, status line, and the overlay above them.
 pub fn draw(frame: &mut Frame<'_>, app: &App) {
     let App { state, screens } = app;
@@ -54,19 +57,28 @@ pub fn keys_of(app: &App) -> Screen {
     if is_start_shown(app) { Screen::Study } else { app.state.nav.screen }
 }
 
-/// Texts of the tabs: whole names where they fit, else short ones, else numbers for all but the shown screen.
+/// Texts of the tabs: whole names where they fit, else short ones, close to their numbers where the study needs room,
+/// else numbers for all but the shown screen.
 fn tab_texts(state: &State, width: u16) -> Vec<(Screen, String)> {
-    let text = |screen: Screen| {
-        let ([name, short], number) = (screen.names(), screen.number());
-        let text = match width {
-            WIDE.. => format!(" {number} {name} "),
-            SHORT.. => format!(" {number} {}", if screen == state.nav.screen { name } else { short }),
-            _ if screen == state.nav.screen => format!(" {number} {name}"),
-            _ => format!(" {number}"),
+    let parts = summary(state, width);
+    let study = state.study().map_or(0, |study| text::width(&study.name));
+    let told = study + parts.iter().map(|(_, span)| span.width()).sum::<usize>();
+    let texts = |gap: &str| -> Vec<(Screen, String)> {
+        let text = |screen: Screen| {
+            let ([name, short], number) = (screen.names(), screen.number());
+            let text = match width {
+                WIDE.. => format!(" {number} {name} "),
+                _ if screen == state.nav.screen => format!(" {number} {name}"),
+                SHORT.. => format!(" {number}{gap}{short}"),
+                _ => format!(" {number}"),
+            };
+            (screen, text)
         };
-        (screen, text)
+        Screen::ALL.into_iter().map(text).collect()
     };
-    Screen::ALL.into_iter().map(text).collect()
+    let loose = texts(" ");
+    let columns: usize = loose.iter().map(|(_, text)| text::width(text)).sum();
+    if columns + told < usize::from(width) { loose } else { texts("") }
 }
 
 /// Screen whose tab is at a column of the terminal.
@@ -86,22 +98,34 @@ fn tabs(state: &State, width: u16) -> Line<'static> {
         spans.push(Span::styled(text, style));
     }
     let used: usize = spans.iter().map(Span::width).sum();
-    let room = usize::from(width).saturating_sub(used);
-    let columns = |spans: &[(u8, Span<'_>)]| spans.iter().map(|(_, span)| span.width()).sum::<usize>();
-    let mut summary = summary(state, width);
-    while columns(&summary) >= room && !summary.is_empty() {
-        let least = (0..summary.len()).min_by_key(|k| summary[*k].0).unwrap_or(0);
-        summary.remove(least);
-    }
-    spans.push(Span::raw(" ".repeat(room - columns(&summary).min(room))));
-    spans.extend(summary.into_iter().map(|(_, span)| span));
+    // A column stays free before the study.
+    let room = usize::from(width).saturating_sub(used + 1);
+    let summary = fitted(state, summary(state, width), room);
+    let columns: usize = summary.iter().map(Span::width).sum();
+    spans.push(Span::raw(" ".repeat(1 + room - columns.min(room))));
+    spans.extend(summary);
     Line::from(spans)
 }
 
-/// Study and its progress, in parts with weights; where they do not fit, the part of least weight is left out first.
+/// Name of the study and as many parts of its progress as fit. The name is always there: long ones are shortened, but
+/// parts of least weight are left out before a name has fewer than [`LEAST_NAME`] columns.
+fn fitted(state: &State, mut parts: Vec<(u8, Span<'static>)>, room: usize) -> Vec<Span<'static>> {
+    let Some(study) = state.study() else { return vec![] };
+    let least = text::width(&study.name).min(LEAST_NAME);
+    let columns = |parts: &[(u8, Span<'_>)]| parts.iter().map(|(_, span)| span.width()).sum::<usize>();
+    while columns(&parts) + least > room && !parts.is_empty() {
+        let lightest = (0..parts.len()).min_by_key(|k| parts[*k].0).unwrap_or(0);
+        parts.remove(lightest);
+    }
+    let name = text::shortened(&study.name, room.saturating_sub(columns(&parts)));
+    let name = Span::styled(name, state.theme.bold());
+    std::iter::once(name).chain(parts.into_iter().map(|(_, span)| span)).collect()
+}
+
+/// Progress of the study, in parts with weights; where they do not fit, the part of least weight is left out first.
 fn summary(state: &State, width: u16) -> Vec<(u8, Span<'static>)> {
     let Some(study) = state.study() else { return vec![] };
-    let mut spans = vec![(1, Span::styled(study.name.clone(), state.theme.bold()))];
+    let mut spans = vec![];
     if study.paused {
         spans.push((9, Span::styled(" paused", state.theme.warn())));
     }
@@ -112,7 +136,15 @@ fn summary(state: &State, width: u16) -> Vec<(u8, Span<'static>)> {
     spans.push((0, Span::raw(format!(" {} jobs", study.total()))));
     for status in Status::ALL.into_iter().filter(|status| study.count(*status) > 0) {
         let text = format!(" {}{}", glyph(status), study.count(status));
-        spans.push((if status == Status::Cancelled { 6 } else { 7 }, Span::styled(text, state.theme.status(status))));
+        let weight = match status {
+            Status::Failed => 9,
+            Status::Running => 8,
+            Status::NotConverged => 7,
+            Status::Done => 6,
+            Status::Queued => 4,
+            Status::Cancelled => 3,
+        };
+        spans.push((weight, Span::styled(text, state.theme.status(status))));
     }
     spans.push((10, Span::raw(" ")));
     spans
@@ -157,8 +189,15 @@ fn status_line(app: &App, width: u16) -> Line<'static> {
     // In the catalogue rows are seldom selected together, and `?` tells how.
     let is_catalogue = matches!(keys_of(app), Screen::Subjects | Screen::Fabrics);
     let hinted = hinted.filter(|b| b.action != Action::Mark || !is_catalogue);
+    let hinted = hinted.filter(|b| b.action != Action::RetryFailed || keys_of(app) == Screen::Jobs);
     let is_start = is_start_shown(app);
-    let hinted = hinted.filter(|b| !is_start || matches!(b.name, "open" | "run" | "new-study" | "help" | "palette"));
+    let mut hinted: Vec<&Binding> = hinted.collect();
+    if keys_of(app) == Screen::Results {
+        // From a result one goes on to how the garment fits.
+        hinted.sort_by_key(|b| !matches!(b.action, Action::Enlarge | Action::Show(Screen::Fit)));
+    }
+    let hinted =
+        hinted.into_iter().filter(|b| !is_start || matches!(b.name, "open" | "run" | "new-study" | "help" | "palette"));
     let (last, first): (Vec<&Binding>, Vec<&Binding>) = hinted.partition(|b| matches!(b.name, "help" | "palette"));
     let columns = |b: &Binding| text::width(&b.keys[0].to_string()) + text::width(b.hint) + 3;
     let reserved: usize = last.iter().map(|b| columns(b)).sum();

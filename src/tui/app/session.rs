@@ -83,6 +83,7 @@ impl Session {
         (screens.subjects.chosen, screens.fabrics.chosen, screens.styles.selected) =
             (self.subject, self.fabric, self.size);
         state.marks = self.marks.into_iter().map(JobId).collect();
+        state.nav.marked_on = state.nav.screen;
         for (filter, kept) in state.nav.filters.iter_mut().zip(self.filters) {
             *filter = kept;
         }

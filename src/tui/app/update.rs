@@ -25,13 +25,14 @@ use crate::widgets::jump::hit;
 impl App {
     /// Handles a message. Returns the effects that it asks for.
     pub fn update(&mut self, message: Message) -> Vec<Effect> {
-        let before = self.state.focus.clone();
+        let (before, screen) = (self.state.focus.clone(), self.state.nav.screen);
         let filter = self.state.nav.filters[Screen::Sql as usize].clone();
         let mut effects = self.take(message);
         if self.state.nav.filters[Screen::Sql as usize] != filter {
             self.screens.sql.arrange_rows(&self.state);
         }
         self.screens.jobs.arrange(&self.state);
+        self.take_marks_away(screen, &before);
         self.share();
         if self.state.focus != before {
             self.moved(&before);
@@ -98,6 +99,21 @@ impl App {
             Message::Terminate => return vec![Effect::StopRun, Effect::Quit],
         }
         vec![]
+    }
+
+    /// Takes marks away whose list is left: nobody should act on rows that are not seen. Results and comparisons keep
+    /// those of the runs they show.
+    fn take_marks_away(&mut self, screen: Screen, before: &Focus) {
+        let Self { state, screens } = self;
+        let shown = state.nav.screen;
+        if shown != screen {
+            screens.page_mut(screen).left();
+        }
+        let keeps = shown == state.nav.marked_on || matches!(shown, Screen::Results | Screen::Compare);
+        let is_other = before.study.is_some() && before.study != state.focus.study;
+        if !keeps && shown != screen || is_other {
+            state.marks.clear();
+        }
     }
 
     /// Copies choices of screens into the state, for threads and other screens.

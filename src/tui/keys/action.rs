@@ -170,6 +170,8 @@ pub enum Action {
     Cancel,
     /// Queues the selected job again.
     Retry,
+    /// Queues all failed jobs of the study again.
+    RetryFailed,
     /// Runs the selected job earlier.
     Raise,
     /// Runs the selected job later.

@@ -185,6 +185,14 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Cancel, "cancel", &[ch('x')], RESULTS, "cancel", "Cancel the selected queued or running jobs; asks"),
     bind(Action::Retry, "retry", &[ch('r')], RESULTS, "retry", "Queue the selected failed or cancelled jobs again"),
     bind(
+        Action::RetryFailed,
+        "retry-failed",
+        &[ch('A')],
+        &[Study, Jobs],
+        "all failed",
+        "Queue all failed jobs of the study again",
+    ),
+    bind(
         Action::OpenReport,
         "open-report",
         &[key(KeyCode::Enter)],

@@ -98,7 +98,7 @@ impl Snapshot {
 
     /// Jobs by their numbers, without those that are gone.
     #[must_use]
-    pub fn jobs_of<'a>(&'a self, ids: impl Iterator<Item = &'a JobId>) -> Vec<&'a JobRow> {
+    pub fn jobs_of<'i>(&self, ids: impl Iterator<Item = &'i JobId>) -> Vec<&JobRow> {
         ids.filter_map(|id| self.job(*id)).collect()
     }
 

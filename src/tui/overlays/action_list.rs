@@ -67,8 +67,8 @@ impl List {
     }
 
     /// Rows that are shown. Without a text: actions in the order of the table, first those of the screen, then those of
-    /// all screens, then others. With a text: actions whose names begin with it, then studies and entries whose names
-    /// match, then actions that contain it.
+    /// all screens, then others. With a text: actions of whose names a word begins with it, then studies and entries
+    /// whose names match, then actions that contain it.
     #[must_use]
     pub fn rows(&self) -> Vec<Row<'_>> {
         let text = self.text.trim();
@@ -77,7 +77,10 @@ impl List {
             rows.sort_by_key(|binding| self.reach(binding));
             return rows.into_iter().map(Row::Action).collect();
         }
-        let begins = |binding: &&Binding| binding.name.starts_with(&text.to_lowercase());
+        let typed = text.to_lowercase();
+        let begins = |binding: &&Binding| {
+            binding.name.starts_with(&typed) || binding.name.split('-').any(|word| word.starts_with(&typed))
+        };
         let (named, others): (Vec<_>, Vec<_>) = search(self.bindings, text).into_iter().partition(begins);
         let mut things: Vec<(usize, &Thing)> =
             self.things.iter().filter_map(|thing| Some((thing.distance(text)?, thing))).collect();

@@ -75,6 +75,15 @@ impl Purpose {
         }
     }
 
+    /// Endings of the files that Tab offers; empty for all files.
+    fn endings(&self) -> &'static [&'static str] {
+        match self {
+            Self::Import(_) => &["csv", "toml"],
+            Self::Export(_) => &ENDINGS,
+            Self::Write(_) | Self::SaveQuery(_) | Self::RenameQuery(_) | Self::Sign(_) => &[],
+        }
+    }
+
     /// Legend of the keys.
     #[must_use]
     pub fn keys(&self) -> &'static str {
@@ -121,7 +130,7 @@ impl PathPrompt {
         }
         if event.code == KeyCode::Tab && !self.is_name() {
             let before = self.text.len();
-            self.offered = Candidates::complete(&mut self.text);
+            self.offered = Candidates::complete(&mut self.text, self.purpose.endings());
             if matches!(self.purpose, Purpose::Export(_)) && self.offered.is_empty() && self.text.len() == before {
                 next_ending(&mut self.text);
             }
@@ -180,11 +189,12 @@ pub struct Candidates {
 
 impl Candidates {
     /// Completes a typed path as far as the files that exist leave no choice. Returns the files among which there is a
-    /// choice, where the path cannot be completed; no files where it was.
-    pub fn complete(text: &mut String) -> Self {
+    /// choice, where the path cannot be completed; no files where it was. Only folders and files with some endings are
+    /// offered; all files without any endings.
+    pub fn complete(text: &mut String, endings: &[&str]) -> Self {
         let (folder, start) =
             text.rsplit_once('/').map_or(("", text.as_str()), |(_, start)| (&text[..text.len() - start.len()], start));
-        let mut names = names_of(folder, start);
+        let mut names = names_of(folder, start, endings);
         let Some(first) = names.first() else { return Self::default() };
         let shared = |count: &usize| {
             first.is_char_boundary(*count) && names.iter().all(|name| name.starts_with(&first[..*count]))
@@ -225,14 +235,20 @@ impl Candidates {
     }
 }
 
-/// Names of the files of a folder that begin with a text, in order.
-fn names_of(folder: &str, start: &str) -> Vec<String> {
+/// Names of the files of a folder that begin with a text and have one of some endings, and of its folders, in order.
+fn names_of(folder: &str, start: &str, endings: &[&str]) -> Vec<String> {
     let place = if folder.is_empty() { PathBuf::from(".") } else { path_of(folder) };
     let name = |entry: std::fs::DirEntry| {
         let end = if entry.path().is_dir() { "/" } else { "" };
         Some(entry.file_name().to_str()?.to_owned() + end)
     };
-    let is_meant = |name: &String| name.starts_with(start) && (start.starts_with('.') || !name.starts_with('.'));
+    let has_ending = |name: &str| {
+        let own = name.rsplit_once('.').map_or("", |(_, ending)| ending);
+        endings.is_empty() || name.ends_with('/') || endings.iter().any(|ending| own.eq_ignore_ascii_case(ending))
+    };
+    let is_meant = |name: &String| {
+        name.starts_with(start) && (start.starts_with('.') || !name.starts_with('.')) && has_ending(name)
+    };
     let files = std::fs::read_dir(place).into_iter().flatten().flatten();
     let mut names: Vec<String> = files.filter_map(name).filter(is_meant).collect();
     names.sort();
@@ -263,24 +279,25 @@ mod tests {
     fn paths_are_completed_as_far_as_there_is_no_choice() {
         let folder = tempfile::tempdir().expect("a folder");
         let place = folder.path().display().to_string();
-        for name in ["shirt-front.dxf", "shirt-back.dxf", ".hidden"] {
+        for name in ["shirt-front.dxf", "shirt-back.DXF", ".hidden.dxf", "shirt-tool"] {
             std::fs::write(folder.path().join(name), "").expect("writable");
         }
         std::fs::create_dir(folder.path().join("trousers")).expect("writable");
         let check = |typed: &str, expect: &str, offered: &[&str]| {
             let mut text = format!("{place}/{typed}");
-            let found = Candidates::complete(&mut text);
+            let found = Candidates::complete(&mut text, &["dxf", "json"]);
             let found: Vec<&str> =
                 if found.is_empty() { vec![] } else { found.names.iter().map(String::as_str).collect() };
             assert_eq!((text, found.as_slice()), (format!("{place}/{expect}"), offered), "{typed}");
         };
         check("s", "shirt-", &[]);
-        check("shirt-b", "shirt-back.dxf", &[]);
-        check("shirt-", "shirt-", &["shirt-back.dxf", "shirt-front.dxf"]);
+        check("shirt-b", "shirt-back.DXF", &[]);
+        check("shirt-", "shirt-", &["shirt-back.DXF", "shirt-front.dxf"]);
         check("t", "trousers/", &[]);
-        check("", "", &["shirt-back.dxf", "shirt-front.dxf", "trousers/"]);
+        check("", "", &["shirt-back.DXF", "shirt-front.dxf", "trousers/"]);
         check("x", "x", &[]);
-        check(".", ".hidden", &[]);
+        check(".", ".hidden.dxf", &[]);
+        check("shirt-t", "shirt-t", &[]);
         check("trousers/", "trousers/", &[]);
     }
 

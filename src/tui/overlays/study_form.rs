@@ -1,5 +1,7 @@
 //! Form for a new study: its name, and the entries of the catalogue that it uses.
 
+use std::collections::BTreeSet;
+use std::ops::Range;
 use std::path::PathBuf;
 
 use crossterm::event::{KeyCode, KeyEvent};
@@ -30,6 +32,8 @@ pub enum FormLine {
     Fabric,
     /// Simulator by index, chosen or not.
     Simulator(usize),
+    /// Style of several sizes, by the index of its first: all of them chosen, or not.
+    Style(usize),
     /// Size of a style by index, chosen or not.
     Size(usize),
     /// Outfit of another study by index, chosen or not.
@@ -48,7 +52,7 @@ impl FormLine {
             Self::Name => "name",
             Self::Fabric => "fabric",
             Self::Simulator(_) => "simulators",
-            Self::Size(_) => "styles and sizes",
+            Self::Style(_) | Self::Size(_) => "styles and sizes",
             Self::Outfit(_) | Self::OwnOutfit => "outfits",
             Self::Subject(_) => "subjects",
         }
@@ -79,15 +83,17 @@ pub struct StudyForm {
     pub fabric: usize,
     /// Simulators, each chosen or not.
     pub simulators: Vec<(Simulator, bool)>,
-    /// Sizes, each chosen or not.
+    /// Sizes, those of a style together, each chosen or not.
     pub sizes: Vec<(Wearable, bool)>,
+    /// Styles whose sizes have a line each.
+    pub opened: BTreeSet<String>,
     /// Outfits of other studies whose styles are there, each chosen or not.
     pub outfits: Vec<(NewOutfit, bool)>,
     /// Outfit of one's own, as typed.
     pub own_outfit: String,
     /// Subjects, each chosen or not.
     pub subjects: Vec<(String, bool)>,
-    /// Filter of the sizes or subjects.
+    /// Filter of one part.
     pub filter: Filter,
     /// Index of the selected line.
     pub at: usize,
@@ -100,7 +106,15 @@ impl StudyForm {
     #[must_use]
     pub fn lines(&self) -> Vec<FormLine> {
         let mut lines = vec![FormLine::Name];
-        lines.extend((0..self.sizes.len()).map(FormLine::Size));
+        for k in 0..self.sizes.len() {
+            let style = self.of_style(k);
+            if style.len() > 1 && style.start == k {
+                lines.push(FormLine::Style(k));
+            }
+            if style.len() == 1 || self.is_open(k) {
+                lines.push(FormLine::Size(k));
+            }
+        }
         lines.extend((0..self.subjects.len()).map(FormLine::Subject));
         if self.has_layers() {
             lines.extend((0..self.outfits.len()).map(FormLine::Outfit));
@@ -110,6 +124,43 @@ impl StudyForm {
         lines.push(FormLine::Fabric);
         lines.retain(|line| self.passes(*line));
         lines
+    }
+
+    /// Sizes of the same style as a size.
+    fn of_style(&self, k: usize) -> Range<usize> {
+        let is_other = |(size, _): &&(Wearable, bool)| size.style != self.sizes[k].0.style;
+        let before = self.sizes[..k].iter().rev().take_while(|size| !is_other(size)).count();
+        let after = self.sizes[k..].iter().take_while(|size| !is_other(size)).count();
+        k - before..k + after
+    }
+
+    /// True if the sizes of a size's style have a line each: the style is opened, or a filter is about its sizes.
+    fn is_open(&self, k: usize) -> bool {
+        let style = &self.sizes[k].0.style;
+        let is_sought = self.filter.section == FormLine::Size(k).section() && !self.filter.text.is_empty();
+        self.opened.contains(style) || is_sought && !style.to_lowercase().contains(&self.filter.text)
+    }
+
+    /// Sizes that a line of a style stands for: those that pass the filter.
+    fn meant(&self, k: usize) -> impl Iterator<Item = usize> + '_ {
+        self.of_style(k).filter(|k| self.passes(FormLine::Size(*k)))
+    }
+
+    /// Numbers of chosen and of all sizes that a line of a style stands for.
+    fn chosen_of(&self, k: usize) -> [usize; 2] {
+        [self.meant(k).filter(|k| self.sizes[*k].1).count(), self.meant(k).count()]
+    }
+
+    /// Gives the sizes of a line's style a line each, or folds them into one.
+    fn fold(&mut self, line: FormLine, is_opened: bool) {
+        let (FormLine::Style(k) | FormLine::Size(k)) = line else { return };
+        let (style, first) = (self.sizes[k].0.style.clone(), self.of_style(k).start);
+        if is_opened {
+            self.opened.insert(style);
+        } else {
+            self.opened.remove(&style);
+            self.at = self.lines().iter().position(|line| *line == FormLine::Style(first)).unwrap_or(self.at);
+        }
     }
 
     /// True if an outfit is possible: one is known, or sizes of two styles are chosen.
@@ -123,8 +174,11 @@ impl StudyForm {
     fn passes(&self, line: FormLine) -> bool {
         let words = match line {
             FormLine::Size(k) => format!("{} {}", self.sizes[k].0.style, self.sizes[k].0.size),
+            FormLine::Style(k) => return self.meant(k).next().is_some(),
             FormLine::Subject(k) => self.subjects[k].0.clone(),
-            _ => return true,
+            FormLine::Outfit(k) => outfit_words(&self.outfits[k].0),
+            FormLine::Simulator(k) => text::sim(self.simulators[k].0).to_owned(),
+            FormLine::Name | FormLine::Fabric | FormLine::OwnOutfit => return true,
         };
         line.section() != self.filter.section || words.to_lowercase().contains(&self.filter.text)
     }
@@ -150,6 +204,10 @@ impl StudyForm {
         match line {
             FormLine::Name | FormLine::Fabric | FormLine::OwnOutfit => None,
             FormLine::Simulator(k) => Some(self.simulators[k].1),
+            FormLine::Style(k) => {
+                let [chosen, all] = self.chosen_of(k);
+                Some(chosen == all)
+            }
             FormLine::Size(k) => Some(self.sizes[k].1),
             FormLine::Outfit(k) => Some(self.outfits[k].1),
             FormLine::Subject(k) => Some(self.subjects[k].1),
@@ -160,6 +218,10 @@ impl StudyForm {
         match line {
             FormLine::Name | FormLine::Fabric | FormLine::OwnOutfit => {}
             FormLine::Simulator(k) => self.simulators[k].1 = is_chosen,
+            FormLine::Style(k) => {
+                let meant: Vec<usize> = self.meant(k).collect();
+                meant.into_iter().for_each(|k| self.sizes[k].1 = is_chosen);
+            }
             FormLine::Size(k) => self.sizes[k].1 = is_chosen,
             FormLine::Outfit(k) => {
                 self.outfits[k].1 = is_chosen;
@@ -234,8 +296,14 @@ impl StudyForm {
             _ if is_typed => {
                 edit(if line == FormLine::Name { &mut self.name } else { &mut self.own_outfit }, event);
             }
-            KeyCode::Char('/') if matches!(line, FormLine::Size(_) | FormLine::Subject(_)) => {
+            KeyCode::Char('/') => {
                 self.filter = Filter { section: line.section(), text: String::new(), is_typed: true };
+            }
+            KeyCode::Right | KeyCode::Char('l') if matches!(line, FormLine::Style(_) | FormLine::Size(_)) => {
+                self.fold(line, true);
+            }
+            KeyCode::Left | KeyCode::Char('h') if matches!(line, FormLine::Style(_) | FormLine::Size(_)) => {
+                self.fold(line, false);
             }
             KeyCode::Left | KeyCode::Char('h') if line == FormLine::Fabric => self.next_fabric(-1),
             KeyCode::Right | KeyCode::Char(' ' | 'l') if line == FormLine::Fabric => self.next_fabric(1),
@@ -274,6 +342,9 @@ impl StudyForm {
         } else if edit(&mut self.filter.text, event) {
             self.filter.text = self.filter.text.to_lowercase();
         }
+        if self.filter.section == FormLine::Fabric.section() && !self.is_sought(self.fabric) {
+            self.next_fabric(1);
+        }
         let lines = self.lines();
         if lines.get(self.at).is_none_or(|line| line.section() != self.filter.section) {
             let first = lines.iter().position(|line| line.section() == self.filter.section);
@@ -286,11 +357,9 @@ impl StudyForm {
         match self.line() {
             _ if self.filter.is_typed => " type what the lines contain  ↵ keep  Esc all again ",
             FormLine::Name => " ↵ next part  F5 make it  Esc cancel ",
-            FormLine::Fabric => " h l choose  ↵ make it  Esc back ",
+            FormLine::Fabric => " h l choose  / filter  ↵ make it  Esc back ",
             FormLine::OwnOutfit => " NAME=STYLE,STYLE, the inner first; empty = none  ↵ next part  F5 make it ",
-            FormLine::Simulator(_) | FormLine::Outfit(_) => {
-                " j k  Space choose  a all  ↵ next part  F5 make it  Esc back "
-            }
+            FormLine::Style(_) => " j k  Space all sizes  l each size  / filter  ↵ next part  F5 make it  Esc back ",
             _ if !self.filter.section.is_empty() => {
                 " j k  Space choose  a all of these  ↵ next part  F5 make it  Esc all again "
             }
@@ -308,8 +377,15 @@ impl StudyForm {
     }
 
     fn next_fabric(&mut self, step: isize) {
-        let len = self.fabrics.len().max(1) as isize;
-        self.fabric = (self.fabric as isize + step).rem_euclid(len) as usize;
+        let len = self.fabrics.len();
+        let next = |k: usize| (self.fabric as isize + step * k as isize).rem_euclid(len.max(1) as isize) as usize;
+        self.fabric = (1..=len).map(next).find(|k| self.is_sought(*k)).unwrap_or(self.fabric);
+    }
+
+    /// True if a fabric passes the filter.
+    fn is_sought(&self, k: usize) -> bool {
+        let is_filtered = self.filter.section == FormLine::Fabric.section();
+        !is_filtered || self.fabrics.get(k).is_some_and(|name| name.to_lowercase().contains(&self.filter.text))
     }
 
     /// Chooses all lines of a line's part, or none where all are chosen.
@@ -361,6 +437,16 @@ impl StudyForm {
     }
 }
 
+/// An outfit with its layers, the inmost first.
+fn outfit_words(outfit: &NewOutfit) -> String {
+    format!("{}: {}", outfit.name, outfit.layers.join(" under "))
+}
+
+/// Remark on a size that is no one's pattern file.
+fn origin(wearable: &Wearable) -> &'static str {
+    if matches!(wearable.source, PatternSource::Drafted(_)) { "  drafted by the program" } else { "" }
+}
+
 /// Those of a list that are chosen.
 fn chosen<T: Clone>(all: &[(T, bool)]) -> Vec<T> {
     all.iter().filter(|(_, is_chosen)| *is_chosen).map(|(one, _)| one.clone()).collect()
@@ -389,13 +475,27 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StudyForm, theme: Theme) {
     if !form.filter.section.is_empty() {
         let cursor = if form.filter.is_typed { "▏" } else { "" };
         let shown = form.lines().iter().filter(|line| line.section() == form.filter.section).count();
+        let shown = match form.filter.section {
+            section if section == FormLine::Fabric.section() => {
+                (0..form.fabrics.len()).filter(|k| form.is_sought(*k)).count()
+            }
+            _ => shown,
+        };
         let text = format!(" {}: {shown} that contain /{}{cursor}", form.filter.section, form.filter.text);
         below.push(Line::styled(shortened(&text, columns), theme.warn()));
     }
     below.extend(form.sending.lines("writing and checking…", columns, theme));
     let lines = form.lines();
     let room = usize::from(area.height.saturating_sub(2)).saturating_sub(below.len());
+    // A line that tells what does not fit takes the room of one.
+    let room = if lines.len() > room { room.saturating_sub(1) } else { room };
     let first = first_shown(form.at, lines.len(), room);
+    let hidden = [(first, "▲", "above"), (lines.len().saturating_sub(first + room), "▼", "below")];
+    let hidden = hidden.into_iter().filter(|(count, ..)| *count > 0);
+    let hidden: Vec<String> = hidden.map(|(count, sign, where_)| format!("{sign} {count} more {where_}")).collect();
+    if !hidden.is_empty() {
+        below.insert(0, Line::styled(format!("  {}", hidden.join("  ")), theme.warn()));
+    }
     let mut shown: Vec<Line<'_>> =
         (first..lines.len()).take(room).map(|k| line(form, k, k == first, columns, theme)).collect();
     shown.extend(below);
@@ -410,6 +510,7 @@ fn line(form: &StudyForm, k: usize, is_first_shown: bool, columns: usize, theme:
     let begins = k == 0 || is_first_shown || lines[k - 1].section() != line.section();
     let section = if begins { line.section() } else { "" };
     let mark = match form.choice(line) {
+        _ if matches!(line, FormLine::Style(k) if (1..form.chosen_of(k)[1]).contains(&form.chosen_of(k)[0])) => "[-] ",
         Some(true) => "[x] ",
         Some(false) => "[ ] ",
         None => "",
@@ -421,16 +522,18 @@ fn line(form: &StudyForm, k: usize, is_first_shown: bool, columns: usize, theme:
             None => "none".to_owned(),
         },
         FormLine::Simulator(k) => text::sim(form.simulators[k].0).to_owned(),
+        FormLine::Style(k) => {
+            let [chosen, all] = form.chosen_of(k);
+            let sizes = if all == 1 { "size" } else { "sizes" };
+            let sign = if form.is_open(k) { "▼" } else { "▸" };
+            format!("{}  {chosen} of {all} {sizes} {sign}{}", form.sizes[k].0.style, origin(&form.sizes[k].0))
+        }
         FormLine::Size(k) => {
             let wearable = &form.sizes[k].0;
-            let origin =
-                if matches!(wearable.source, PatternSource::Drafted(_)) { "  drafted by the program" } else { "" };
-            format!("{} {}{origin}", wearable.style, wearable.size)
+            let indent = if form.of_style(k).len() > 1 { "  " } else { "" };
+            format!("{indent}{} {}{}", wearable.style, wearable.size, origin(wearable))
         }
-        FormLine::Outfit(k) => {
-            let outfit = &form.outfits[k].0;
-            format!("{}: {}", outfit.name, outfit.layers.join(" under "))
-        }
+        FormLine::Outfit(k) => outfit_words(&form.outfits[k].0),
         FormLine::OwnOutfit if is_focused => format!("{}▏", form.own_outfit),
         FormLine::OwnOutfit if form.own_outfit.is_empty() => "one of your own".to_owned(),
         FormLine::OwnOutfit => form.own_outfit.clone(),

@@ -104,7 +104,8 @@ impl StyleForm {
             return false;
         }
         let before = text.len();
-        let known = std::mem::replace(&mut self.offered, Candidates::complete(text));
+        let endings: &[&str] = if self.at == PATTERN { &["dxf", "json", "toml"] } else { &["toml"] };
+        let known = std::mem::replace(&mut self.offered, Candidates::complete(text, endings));
         // A second Tab on the same choice goes on, as it does on a path that is whole.
         text.len() > before || !self.offered.is_empty() && self.offered != known
     }

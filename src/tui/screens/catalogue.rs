@@ -49,6 +49,32 @@ pub fn import(state: &mut State, part: Part) {
     }
 }
 
+/// Removes the marked entries of a list that are shown, after a question; without marks, the selected one.
+pub fn remove_marked(state: &mut State, part: Part, marks: &Marks<String>, shown: &[String], selected: Option<String>) {
+    if marks.is_empty() {
+        return remove(state, part, selected.into_iter().collect());
+    }
+    match marks.seen(shown) {
+        (seen, 0) => remove(state, part, seen),
+        (seen, hidden) if seen.is_empty() => state.say(format!("{}: nothing is removed", hidden_words(hidden))),
+        (seen, hidden) => {
+            remove(state, part, seen);
+            if let Some(Overlay::Question { text, .. }) = &mut state.overlay {
+                text.push_str(&format!(" {}: not touched.", hidden_words(hidden)));
+            }
+        }
+    }
+}
+
+/// Number of selected rows that are not on the screen, in words.
+#[must_use]
+pub fn hidden_words(hidden: usize) -> String {
+    match hidden {
+        1 => "1 more is selected that is not seen here".to_owned(),
+        hidden => format!("{hidden} more are selected that are not seen here"),
+    }
+}
+
 /// Removes entries by name, after a question.
 pub fn remove(state: &mut State, part: Part, names: Vec<String>) {
     let what = match &names[..] {

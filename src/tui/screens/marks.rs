@@ -73,6 +73,15 @@ impl<T: Ord + Clone> Marks<T> {
         (self.marked, self.last) = (BTreeSet::new(), None);
     }
 
+    /// The marked rows among those that are shown, and the number of the others, which no action touches.
+    #[must_use]
+    pub fn seen(&self, shown: &[T]) -> (Vec<T>, usize) {
+        let shown: BTreeSet<&T> = shown.iter().collect();
+        let seen: Vec<T> = self.marked.iter().filter(|row| shown.contains(row)).cloned().collect();
+        let hidden = self.marked.len() - seen.len();
+        (seen, hidden)
+    }
+
     /// Takes the marks of rows away that are gone.
     pub fn keep(&mut self, is_there: impl Fn(&T) -> bool) {
         self.marked.retain(is_there);

@@ -2,7 +2,7 @@
 //!
 //! A new screen is a folder here, with an entry in [`Screen`] and in [`Screens`]. The compiler asks for the latter.
 
-mod catalogue;
+pub mod catalogue;
 pub mod compare;
 pub mod fabrics;
 pub mod fit;

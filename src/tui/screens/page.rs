@@ -88,6 +88,9 @@ pub trait Page: Draw {
         false
     }
 
+    /// Takes the marks of its list away, as another screen is shown.
+    fn left(&mut self) {}
+
     /// Handles new data from the database.
     fn receive(&mut self, _state: &State) {}
 

@@ -68,6 +68,8 @@ pub struct Setup {
     pub abilities: Abilities,
     /// Folders for new files.
     pub folders: Folders,
+    /// User and name of this machine, `USER@HOST`.
+    pub login: String,
     /// Path of the database, if commands must name it.
     pub database: Option<PathBuf>,
 }
@@ -107,6 +109,8 @@ pub struct Navigation {
     pub trail: Vec<Screen>,
     /// True for each screen whose second pane has the focus.
     pub second_pane: [bool; Screen::ALL.len()],
+    /// Screen on which runs were marked. Results and comparisons of them keep the marks.
+    pub marked_on: Screen,
     /// The filter of each screen.
     pub filters: [String; Screen::ALL.len()],
     /// Lines that the table of the selected subject or fabric is scrolled down.
@@ -161,7 +165,13 @@ impl State {
     pub fn new(theme: Theme, abilities: Abilities, size: Size) -> Self {
         Self {
             theme,
-            setup: Setup { bindings: BINDINGS, abilities, folders: Folders::default(), database: None },
+            setup: Setup {
+                bindings: BINDINGS,
+                abilities,
+                folders: Folders::default(),
+                login: String::new(),
+                database: None,
+            },
             terminal: Terminal { size, has_mouse: false, chosen_mouse: None, chosen_ascii: None, detached: false },
             data: None,
             focus: Focus::default(),
@@ -172,6 +182,7 @@ impl State {
                 screen: Screen::Study,
                 trail: vec![],
                 second_pane: Screen::ALL.map(|screen| screen == Screen::Sql),
+                marked_on: Screen::Study,
                 filters: Default::default(),
                 table_down: 0,
             },

@@ -137,8 +137,8 @@ fn the_end_of_a_run_elsewhere_is_told_once() {
     bench.send(Message::Data(Box::new(fixture::snapshot())));
     assert_eq!(bench.asked(), [], "jobs still run");
     bench.send(Message::Data(Box::new(ended.clone())));
-    assert_eq!(bench.asked(), [Effect::Notify("men-tops: 9 done, 3 failed".into())]);
-    assert!(bench.status().contains("a run elsewhere has ended: men-tops: 9 done, 3 failed"));
+    assert_eq!(bench.asked(), [Effect::Notify("men-tops: 9 done, 3 failed, 1 more than 5 mm inside the body".into())]);
+    assert!(bench.status().contains("a run elsewhere has ended: men-tops: 9 done, 3 failed, 1 more than 5 mm"));
     bench.send(Message::Data(Box::new(ended.clone())));
     assert_eq!(bench.asked(), []);
 
@@ -183,8 +183,10 @@ fn what_is_seen_is_what_is_searched() {
         assert_eq!(shown, expect, "{keys}");
     };
     check("4/not at", &[3]);
-    check("4/≈", &[3]);
-    check("4/conv", &[1, 2, 4, 5]);
+    check("4/≈", &[2, 3]);
+    check("4/✓!", &[2]);
+    check("4/37 mm inside", &[2]);
+    check("4/conv", &[1, 4, 5]);
     check("4/in work", &[7, 8]);
     check("4/58%", &[7, 8]);
     check("4/0.0117", &[1]);
@@ -459,4 +461,77 @@ fn several_entries_are_removed_together() {
     check("9 jjVd", "Remove 3 fabrics", &["cotton_shirting_light", "jersey", "stiff"]);
     check("9jd", "Remove fabric jersey?", &["jersey"]);
     check("9/stretch<Esc>*ujd", "Remove fabric jersey?", &["jersey"]);
+}
+
+#[test]
+fn actions_touch_only_what_is_seen() {
+    let check = |keys: &str, question: &str, expect: &[i64]| {
+        let mut bench = Bench::example(120, 30);
+        bench.press(keys);
+        let asked = match &bench.app.state.overlay {
+            Some(Overlay::Question { text, .. }) => text.clone(),
+            _ => bench.screen(),
+        };
+        assert!(asked.contains(question), "{keys}: {asked}");
+        let jobs = expect.iter().copied().map(JobId).collect();
+        assert_eq!(bench.press("y").asked(), [Effect::Do(Command::Cancel(jobs))], "{keys}");
+    };
+    check(
+        "4*/queued<Enter>x",
+        "Cancel the 4 selected jobs? 8 more are selected that are not seen here",
+        &[9, 10, 11, 12],
+    );
+    check("4jjjjjj j <Enter>x", "Cancel job 8, tshirt M on i by HYB? 1 more is selected that is not seen here", &[8]);
+    let mut bench = Bench::example(120, 30);
+    bench.press("4*/failed<Enter>r");
+    assert!(bench.screen().contains("Queue 1 selected jobs again? 11 more"), "{}", bench.screen());
+    assert_eq!(bench.press("y").asked(), [Effect::Do(Command::Retry(vec![JobId(5)]))]);
+    assert!(Bench::example(120, 30).press("4 /failed<Enter>r").status().contains("no job is selected here. 1 more"));
+    let mut bench = Bench::example(120, 30);
+    bench.press("9*/jersey<Enter>d");
+    assert!(bench.screen().contains("Remove fabric jersey?") && bench.screen().contains("2 more are"));
+}
+
+#[test]
+fn marks_stay_behind_with_their_list() {
+    let marked = |keys: &str| Bench::example(80, 24).press(keys).app.state.marks.len();
+    let check = |keys: &str, expect: usize| assert_eq!(marked(keys), expect, "{keys}");
+    check("4*", 12);
+    check("4*c", 12);
+    check("4*c<Esc>", 12);
+    check("4*<Enter>", 12);
+    check("4*1", 0);
+    check("4*7", 0);
+    check("4*c7", 0);
+    check(" 4", 0);
+    let entries = |keys: &str| Bench::example(80, 24).press(keys).app.screens.fabrics.marks.len();
+    assert_eq!((entries("9*"), entries("9*1")), (3, 0));
+}
+
+#[test]
+fn all_that_failed_is_queued_again_by_one_key() {
+    for keys in ["4A", "A", ":fail<Enter>", "4/queued<Enter>A"] {
+        let asked = Bench::example(80, 24).press(keys).asked();
+        assert_eq!(asked, [Effect::Do(Command::Retry(vec![JobId(5)]))], "{keys}");
+    }
+    assert!(Bench::example(80, 24).press("4").screen().contains(" A all failed "));
+}
+
+#[test]
+fn the_study_is_in_the_header_of_every_screen() {
+    let check = |name: &str, width: u16, screen: char, expect: &str| {
+        let mut data = fixture::snapshot();
+        data.studies[0].name = name.into();
+        let mut bench = Bench::new(width, 24, data);
+        bench.press(&screen.to_string());
+        let header = bench.screen().lines().next().unwrap_or_default().to_owned();
+        assert!(header.contains(expect), "{name} at {width} on {screen}: {header}");
+    };
+    for screen in "1234567890".chars() {
+        check("men-tops", 80, screen, " men-tops ");
+        check("a-study-of-trousers", 80, screen, " a-study");
+        check("a-study-of-trousers", 160, screen, " a-study-of-trousers ");
+        check("men-tops", 66, screen, " ");
+    }
+    check("men-tops", 80, '4', "✗1");
 }

@@ -80,6 +80,8 @@ fn job(index: usize) -> JobRow {
             step: step(58),
         }),
         ei: status.has_result().then_some(0.0117 / (index + 1) as f64),
+        // Job 2, by Hybrid-GS, lies inside the body.
+        penetration_max_m: status.has_result().then_some(if index == 1 { 0.037 } else { 0.0002 }),
     }
 }
 
@@ -115,6 +117,7 @@ pub fn snapshot() -> Snapshot {
         status: Some(job.status),
         fraction: job.progress.as_ref().map(|progress| progress.fraction),
         ei: job.ei,
+        is_inside: job.inside().is_some(),
     };
     let cells = |size: usize| -> Vec<Vec<Cell>> {
         (0..3).map(|subject| (0..2).map(|sim| cell(&jobs[size * 6 + subject * 2 + sim])).collect()).collect()

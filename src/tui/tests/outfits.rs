@@ -69,7 +69,7 @@ fn outfits_are_chosen_or_typed_for_a_new_study() {
     };
     // The outfit brings the sizes of its layers; sizes that are chosen stay.
     check("a<Tab><Tab>a<Tab> <F5>", 3, "office=tshirt,trousers");
-    check("a<Tab>j <Tab>a<Tab> <F5>", 2, "office=tshirt,trousers");
+    check("a<Tab>ljj <Tab>a<Tab> <F5>", 2, "office=tshirt,trousers");
     check("a<Tab>a<Tab>a<Tab><Down>look=tshirt,trousers<F5>", 6, "look=tshirt,trousers");
     check("a<Tab>a<Tab>a<F5>", 6, "");
     // Refused before anything is written.

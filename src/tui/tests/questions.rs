@@ -207,7 +207,8 @@ fn reports_are_listed_built_and_opened() {
     bench.send(Message::ReportBuilt(Ok("/srv/reports/men-tops/index.html".into()), rows));
     assert_eq!(bench.app.screens.reports.selected(&bench.app.state).map(|row| row.name.as_str()), Some("men-tops"));
     assert_snapshot!("reports_80x24", bench.screen());
-    assert_eq!(bench.press("y").asked(), [Effect::Copy("/srv/reports/men-tops/index.html".into())]);
+    bench.app.state.setup.login = "mia@mill".into();
+    assert_eq!(bench.press("y").asked(), [Effect::Copy("scp -r mia@mill:/srv/reports/men-tops .".into())]);
     let App { state, screens } = &bench.press("gs").app;
     assert_eq!(screens.reports.selected(state).map(|row| row.name.as_str()), Some("men-tops"), "the latest first");
 }
@@ -226,7 +227,7 @@ fn a_new_study_is_chosen_from_the_catalogue() {
         );
         assert!(bench.press("a<F5>").asked().is_empty());
         assert!(bench.screen().contains("✗ choose a size of a style"), "{}", bench.screen());
-        bench.press(" <Tab>a");
+        bench.press("lj <Tab>a");
         assert_snapshot!(format!("new_study_{width}x{height}"), bench.screen());
         let asked = bench.press("<F5>").asked();
         let [Effect::Files(FileTask::CreateStudy(new))] = &asked[..] else { panic!("{asked:?}") };
@@ -306,7 +307,7 @@ fn a_run_here_is_watched_and_one_elsewhere_is_not() {
 #[test]
 fn what_was_looked_at_is_remembered() {
     let mut bench = Bench::example(80, 24);
-    bench.press("4/hyb<Enter>sjj 7eselect 1<Esc>3");
+    bench.press("7eselect 1<Esc>4/hyb<Enter>sjj ");
     let memory = Session::of(&bench.app);
     let abilities = bench.app.state.setup.abilities;
     let mut app = App::new(bench.app.state.theme, abilities, bench.app.state.terminal.size);
@@ -314,7 +315,7 @@ fn what_was_looked_at_is_remembered() {
     memory.clone().restore(&mut app);
     assert_eq!(
         (app.state.nav.screen, &app.state.focus.job, &app.state.nav.filters),
-        (Screen::Styles, &focus.job, &bench.app.state.nav.filters)
+        (Screen::Jobs, &focus.job, &bench.app.state.nav.filters)
     );
     assert_eq!(
         (app.screens.jobs.order, app.state.marks.len(), app.screens.sql.editor.text()),
@@ -415,4 +416,37 @@ fn escape_leaves_the_part_before_the_form_and_enter_makes_it_at_the_last() {
     assert!(made("<Enter> <Enter> <Enter><Enter><Enter>"));
     assert!(made("<Enter> <Enter> <F5>"));
     assert!(form("<F5>").expect("open").sending.problem.is_some_and(|problem| problem.contains("choose a size")));
+}
+
+#[test]
+fn the_sizes_of_a_style_are_one_line_until_it_is_opened() {
+    let check = |keys: &str, expect: &[&str]| {
+        let form = form(keys).unwrap_or_else(|| panic!("{keys}"));
+        let chosen = form.sizes.iter().filter(|(_, is_chosen)| *is_chosen);
+        let chosen: Vec<String> = chosen.map(|(size, _)| format!("{} {}", size.style, size.size)).collect();
+        assert_eq!(chosen, expect, "{keys}");
+    };
+    check("<Enter> ", &["tshirt S", "tshirt M"]);
+    check("<Enter>  ", &[]);
+    check("<Enter>lj ", &["tshirt S"]);
+    check("<Enter>lj h ", &["tshirt S", "tshirt M"]);
+    check("<Enter>j ", &["trousers S", "trousers M", "trousers L"]);
+    check("<Enter>/trou<Enter> ", &["trousers S", "trousers M", "trousers L"]);
+    check("<Enter>/trousers l<Enter>j ", &["trousers L"]);
+    check("<Enter>/trousers l<Enter> ", &["trousers L"]);
+}
+
+#[test]
+fn every_part_of_the_form_can_be_filtered_and_what_does_not_fit_is_told() {
+    let simulators = form("<Enter><Enter><Enter>/hyb<Enter> ").expect("open").simulators;
+    assert_eq!(simulators.iter().map(|(_, is_chosen)| *is_chosen).collect::<Vec<_>>(), [true, false]);
+    let fabric = |keys: &str| {
+        let form = form(keys).expect("open");
+        form.fabrics[form.fabric].clone()
+    };
+    assert_eq!(fabric("<Enter><Enter><Enter><Enter>/jers<Enter>"), "jersey");
+    assert_eq!(fabric("<Enter><Enter><Enter><Enter>/jers<Enter>ll"), "jersey", "the only one");
+    let seen = |keys: &str| Bench::example(80, 14).press(keys).screen();
+    assert!(seen("a").contains("more below") && !seen("a").contains("more above"), "{}", seen("a"));
+    assert!(seen("a<Tab><Tab>G").contains("more above"), "{}", seen("a<Tab><Tab>G"));
 }

@@ -12,7 +12,7 @@ use crate::screens::styles::state::{EdgeAt, TableLine};
 use crate::widgets::theme::Colours;
 use results::preview::Hung;
 use store::files::SourceFile;
-use wardrobe::seams::DeskSeam;
+use wardrobe::seams::{Choice, DeskSeam, SeamStep, Undecided};
 use wardrobe::{Part, StyleGiven};
 
 /// Seams on the desk.
@@ -179,9 +179,9 @@ fn proposed_seams_are_confirmed_one_by_one() {
     }
     assert_eq!((unsure(&bench), undecided(&bench)), (0, 0), "nothing is left to ask");
     assert!(
-        bench.app.screens.styles.asking.is_none() && bench.status().contains("all is decided"),
+        bench.app.screens.styles.asking.is_none() && bench.screen().contains("no question is left. In no seam:"),
         "{}",
-        bench.status()
+        bench.screen()
     );
     assert!(!String::from_utf8_lossy(&saved(&mut bench).bytes).contains("[[seam]]  # confidence"));
 }
@@ -198,7 +198,7 @@ fn an_edge_is_sewn_and_a_piece_said_by_what_is_offered() {
     bench.press("o");
     assert!(bench.screen().contains("1 not at all: leave it out"), "{}", bench.screen());
     assert!(bench.press("<Esc>").app.screens.styles.asking.is_none() && bench.app.state.nav.screen == Screen::Styles);
-    assert!(bench.press("<Enter>").status().contains("nothing is left to decide"));
+    assert!(bench.press("<Enter>").screen().contains("no question is left."));
 }
 
 #[test]
@@ -374,4 +374,90 @@ fn the_preview_is_cut_from_the_fabric_of_the_study() {
     };
     assert_eq!(fabric("3"), "jersey");
     assert_eq!(fabric("9jj3"), "stiff", "what was gone to counts more");
+}
+
+/// The example's size with a question about some edges, asked.
+fn asked(width: u16, edges: &[EdgeAt]) -> Bench {
+    let mut bench = Bench::example(width, if width < 100 { 24 } else { 50 });
+    bench.press("3<Enter>");
+    let mut layout = bench.layout().clone();
+    let choices = vec![Choice { label: "nothing".into(), step: SeamStep::ConfirmSure, edges: vec![] }];
+    let text = "underarm: sides of 86 and 322 mm look as if they do not belong together; what is sewn there?".into();
+    layout.out.desk.left_out = vec!["POCKET".into(), "LOOP".into()];
+    layout.out.undecided =
+        vec![Undecided { text, edges: edges.to_vec(), choices, stands: Some(0), seam: None, is_sure: false }];
+    let request = bench.app.screens.styles.requested.clone().expect("laid out");
+    bench.send(Message::LaidOut(Box::new(request), Ok(Box::new(layout))));
+    bench.press("<Enter>");
+    bench
+}
+
+#[test]
+fn a_question_names_its_edges_as_the_picture_does_and_marks_no_others() {
+    let dots = |bench: &Bench| bench.screen().matches('●').count();
+    for width in [80, 160] {
+        let bench = asked(width, &[(2, 1), (3, 0)]);
+        let [one, other] = [(2, 1), (3, 0)].map(|edge| {
+            let layout = bench.layout();
+            format!("{} {}", layout.out.desk.pieces[edge.0].id, layout.label(edge))
+        });
+        let screen = bench.screen().replace("│\n", "").replace('│', " ");
+        let words: String = screen.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains(&one), "{one}: {screen}");
+        assert!(words.contains(&other), "{other}: {screen}");
+        assert!(words.contains("question 1 of 1 · 2 pieces left out"), "{screen}");
+        // Three dots are in legends, and one is the answer that stands.
+        let without = asked(width, &[]);
+        assert_eq!(dots(&without), 4, "nothing is marked: {}", without.screen());
+        assert!(dots(&bench) > 7, "{}", bench.screen());
+    }
+    insta::assert_snapshot!("question_80x24", asked(80, &[(2, 1), (3, 0)]).screen());
+}
+
+#[test]
+fn most_edges_have_a_label_at_every_size() {
+    for (width, height) in [(80, 24), (120, 40), (160, 50)] {
+        let bench = {
+            let mut bench = Bench::example(width, height);
+            bench.press("3<Enter>z");
+            bench
+        };
+        let pieces = bench.layout().out.desk.pieces.len();
+        let screen = bench.screen();
+        let labelled = (0..pieces).flat_map(|piece| {
+            let edges = bench.layout().out.desk.pieces[piece].edges.len();
+            (0..edges).map(move |edge| (piece, edge))
+        });
+        let seen = labelled.filter(|edge| screen.contains(&bench.layout().label(*edge))).count();
+        assert!(seen > 15, "{seen} labels at {width} columns: {screen}");
+    }
+}
+
+#[test]
+fn what_stays_open_is_told_before_it_is_saved() {
+    let mut bench = Bench::example(160, 50);
+    bench.press("3<Enter>xe");
+    let mut layout = bench.layout().clone();
+    (layout.out.undecided, layout.out.desk.left_out) = (vec![], vec!["POCKET".into()]);
+    let told = layout.left_open();
+    assert!(told.contains("In no seam: ") && told.contains(" more. Left out: 1 piece, POCKET."), "{told}");
+    let request = bench.app.screens.styles.requested.clone().expect("laid out");
+    bench.send(Message::LaidOut(Box::new(request), Ok(Box::new(layout))));
+    let screen = bench.screen();
+    assert!(screen.contains("no question is left. In no seam:") && screen.contains("POCKET"), "{screen}");
+}
+
+#[test]
+fn answers_are_not_thrown_away_without_a_question() {
+    let propose = |answered: usize| {
+        let mut bench = Bench::example(80, 24);
+        bench.press("3<Enter>");
+        let mut layout = bench.layout().clone();
+        layout.out.desk.seams.iter_mut().for_each(|seam| seam.confidence = Some(0.9));
+        (layout.out.lengths, layout.out.answered) = (vec![], answered);
+        let request = bench.app.screens.styles.requested.clone().expect("laid out");
+        bench.send(Message::LaidOut(Box::new(request), Ok(Box::new(layout))));
+        bench.press("p").screen().contains("Propose all seams of tshirt anew? Its answers")
+    };
+    assert!(propose(1) && !propose(0));
 }

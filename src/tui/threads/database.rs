@@ -1,5 +1,6 @@
 //! The thread that reads the database on request and after changes, and that changes queue and catalogue.
 
+use std::path::Path;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
 
@@ -12,7 +13,7 @@ use engine::actions;
 use store::comments::{self, Fitting};
 use store::owner::Watch;
 use store::queue::Interrupted;
-use store::{Status, Store, StudyError, StudyRow, queue};
+use store::{Problem, Status, Store, StudyError, StudyRow, queue};
 use wardrobe::seams::write_seams;
 use wardrobe::{Deed, Mode, Part, Saved, Strictness, StyleGiven, catalogue};
 
@@ -157,6 +158,7 @@ pub fn carry_out(store: &mut Store, command: &Command) -> Result<String, StudyEr
             Ok(format!("{saved}{}", saved.doubts.iter().map(|doubt| format!("; {doubt}")).collect::<String>()))
         }
         Command::Import(part, path) => {
+            there(path, &format!("a file of {part}s"))?;
             let saved = catalogue::import(store, *part, std::slice::from_ref(path), Strictness::AllOrNone)?.saved;
             let count = |deed: Deed| saved.iter().filter(|saved| saved.deed == deed).count();
             let changed = count(Deed::Revised) + count(Deed::Restored);
@@ -234,6 +236,10 @@ fn import_style(store: &mut Store, name: &str, given: &StyleGiven) -> Result<Str
             &catalogue::import(store, Part::Style, std::slice::from_ref(path), Strictness::AllOrNone)?.saved,
         ));
     }
+    for (_, path) in &given.patterns {
+        there(path, "a pattern: DXF, a folder of DXF files, GarmentCode JSON, or a study.toml")?;
+    }
+    given.seams.iter().try_for_each(|path| there(path, "a seam file"))?;
     let is_known = catalogue::sizes(store)?.iter().any(|row| row.style == name);
     let saved = catalogue::save_style(store, if is_known { Mode::Edit } else { Mode::Add }, name, given)?;
     let unsure = catalogue::sizes(store)?.iter().find(|row| row.style == name).map_or(0, |row| row.unconfirmed);
@@ -241,10 +247,29 @@ fn import_style(store: &mut Store, name: &str, given: &StyleGiven) -> Result<Str
     Ok(proposed + &said(&saved))
 }
 
+/// Refuses a path at which there is nothing, and says what was wanted there.
+fn there(path: &Path, wanted: &str) -> Result<(), StudyError> {
+    if path.exists() {
+        return Ok(());
+    }
+    let found = format!("found no file or folder of this name; accepted: the path of {wanted}");
+    Err(StudyError::File(vec![Problem::of(path, &found)]))
+}
+
+/// Number of entries after the first from which they are counted.
+const MANY: usize = 3;
+
 /// Line that describes saved entries.
 fn said(saved: &[Saved]) -> String {
     match saved {
-        [first, _, _, _, ..] => format!("{first}, and {} more", saved.len() - 1),
+        [first, rest @ ..] if rest.len() >= MANY => {
+            let of = |part: Part| rest.iter().filter(|saved| saved.part == part).count();
+            let parts = [Part::Style, Part::Size, Part::Subject, Part::Fabric].map(|part| (part, of(part)));
+            let told = parts.into_iter().filter(|(_, count)| *count > 0);
+            let told: Vec<String> =
+                told.map(|(part, count)| format!("{count} {part}{}", if count == 1 { "" } else { "s" })).collect();
+            format!("{first}, with {}", told.join(" and "))
+        }
         _ => saved.iter().map(Saved::to_string).collect::<Vec<_>>().join(", "),
     }
 }

@@ -215,7 +215,12 @@ fn resampled(values: &[f64], columns: usize) -> Vec<f64> {
 /// Reason for the present status of a job, in a few words.
 #[must_use]
 pub fn why(job: &JobRow, paused: bool) -> String {
+    let inside = job.inside();
     match job.status {
+        Status::NotConverged if inside.is_some() => {
+            format!("{}, {}", status(job.status), inside.unwrap_or_default())
+        }
+        Status::Done if inside.is_some() => inside.unwrap_or_default(),
         Status::Failed => job.error.clone().unwrap_or_else(|| "failed".into()),
         Status::NotConverged => status(job.status).into(),
         Status::Queued if paused => "study is paused".into(),

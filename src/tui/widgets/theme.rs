@@ -225,6 +225,12 @@ impl Theme {
         }
     }
 
+    /// Style of the state of a result, of which `is_inside` says if it lies too deep inside the body.
+    #[must_use]
+    pub fn result(self, status: Status, is_inside: bool) -> Style {
+        if is_inside { self.warn() } else { self.status(status) }
+    }
+
     /// Style of a chi, by its departure from 1.
     #[must_use]
     pub fn chi(self, chi: f64) -> Style {
@@ -324,6 +330,12 @@ pub fn glyph(status: Status) -> &'static str {
         Status::Failed => "✗",
         Status::Cancelled => "⊘",
     }
+}
+
+/// Sign of a state: its glyph, and `!` for a result that lies too deep inside the body.
+#[must_use]
+pub fn sign(status: Status, is_inside: bool) -> String {
+    format!("{}{}", glyph(status), if is_inside { "!" } else { "" })
 }
 
 /// Glyph of a fit: its class, then `!` if undersized or `~` if borderline.

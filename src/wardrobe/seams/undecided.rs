@@ -57,22 +57,26 @@ pub struct Undecided {
 }
 
 impl Undecided {
-    /// Question of a proposal.
-    pub(crate) fn asked(question: Question) -> Self {
+    /// Question of a proposal. `drawn` are the pieces of the desk by their names in the pattern file.
+    pub(crate) fn asked(desk: &Desk, drawn: &[(String, usize)], question: Question) -> Self {
         let written = question.to_string();
         let answer = |(choice, label): (usize, &String)| Choice {
             label: label.clone(),
             step: SeamStep::Answer { question: question.text.clone(), choice },
-            edges: vec![],
+            edges: desk.edges_of(drawn, label.split(", ").map(|name| name.trim_matches('`'))),
         };
         let mut choices: Vec<Choice> = question.choices.iter().enumerate().map(answer).collect();
         if choices.is_empty() {
             let step = SeamStep::Decide(written);
             choices.push(Choice { label: "it is as it should be".to_owned(), step, edges: vec![] });
         }
+        let mut edges: Vec<EdgeAt> = question.about.iter().filter_map(|name| desk.edge_of(name)).collect();
+        if edges.is_empty() {
+            edges = desk.edges_of(drawn, question.text.split('`').skip(1).step_by(2));
+        }
         Self {
             text: question.text.clone(),
-            edges: vec![],
+            edges,
             choices,
             stands: question.taken.or(Some(0)),
             seam: None,
@@ -234,6 +238,18 @@ impl Desk {
         *role == Role::Other && edges.iter().all(|edge| edge.seam.is_none())
     }
 
+    /// All edges of the pieces that are drawn under some names.
+    fn edges_of<'n>(&self, drawn: &[(String, usize)], names: impl Iterator<Item = &'n str>) -> Vec<EdgeAt> {
+        let pieces = names.flat_map(|name| drawn.iter().filter(move |(drawn, _)| drawn == name));
+        pieces.flat_map(|(_, piece)| (0..self.pieces[*piece].edges.len()).map(|edge| (*piece, edge))).collect()
+    }
+
+    /// Names of the edges in no seam.
+    #[must_use]
+    pub fn open_edges(&self) -> Vec<String> {
+        self.all_edges().filter(|edge| self.edge(*edge).seam.is_none()).map(|edge| self.edge_name(edge)).collect()
+    }
+
     /// Returns the edge of a name.
     fn edge_of(&self, name: &str) -> Option<EdgeAt> {
         self.all_edges().find(|edge| self.edge_name(*edge) == name)
@@ -362,6 +378,23 @@ mod tests {
         check(&all, "front.side_right", "sewn to back.side_right,");
         check(&all, "front.shoulder_left", "sewn to back.shoulder_left,");
         check(&all, "sleeve_left.cap", "armhole_left");
+    }
+
+    #[test]
+    fn a_question_of_a_proposal_is_about_the_edges_and_pieces_that_it_names() {
+        let desk = desk(&[]);
+        let drawn = [("TEE-F".to_owned(), 1), ("TEE-SLV".to_owned(), 2), ("TEE-SLV".to_owned(), 3)];
+        let check = |written: &str, edges: &[EdgeAt], of_first: &[EdgeAt]| {
+            let asked = Undecided::asked(&desk, &drawn, Question::parse(written));
+            assert_eq!((&asked.edges[..], &asked.choices[0].edges[..]), (edges, of_first), "{written}");
+        };
+        let all = |piece: usize| (0..desk.pieces[piece].edges.len()).map(|edge| (piece, edge)).collect::<Vec<_>>();
+        let [one, other] = [(0, 1), (2, 0)].map(|at| (at, desk.edge_name(at)));
+        let about = format!("what is sewn there? [{}, {}] a: nothing; b: ease (a is taken)", one.1, other.1);
+        check(&about, &[one.0, other.0], &[]);
+        check("is `TEE-F` a front? a: yes; b: no", &all(1), &[]);
+        check("which is the sleeve? a: TEE-SLV; b: TEE-F", &[], &[all(2), all(3)].concat());
+        check("is `TEE-POCKET` worn? [front.gone] a: `TEE-F`; b: no", &[], &all(1));
     }
 
     /// Number of seams between two edges, all opened, whose first edge is offered its partner first; is offered it at

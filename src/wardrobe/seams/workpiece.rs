@@ -57,6 +57,8 @@ pub struct LaidOut {
     pub lengths: Vec<DeskLength>,
     /// Open questions: those of a proposal, unsure seams, and findings of a check.
     pub undecided: Vec<Undecided>,
+    /// Number of questions of the proposal that a person has answered.
+    pub answered: usize,
     /// Difference in length between the sides of a seam above which a check reports it, mm.
     pub tolerance_mm: f64,
 }
@@ -82,7 +84,7 @@ impl Workpiece {
     pub fn laid_out(&self) -> Result<LaidOut> {
         let style = patterns::read_style(&self.pattern, self.seams.as_ref(), Some(&self.size), self.unit)?;
         let mut desk = Desk::of(&style);
-        let (mut undecided, mut tolerance_mm) = (vec![], DEFAULT_LENGTH_TOLERANCE_MM);
+        let (mut undecided, mut answered, mut tolerance_mm) = (vec![], 0, DEFAULT_LENGTH_TOLERANCE_MM);
         if let Some((file, text)) = self.seams.as_ref().zip(self.text()).filter(|_| !self.pattern.holds_seams()) {
             for (seam, confidence) in desk.seams.iter_mut().zip(confidences(&text)) {
                 seam.confidence = confidence;
@@ -94,8 +96,10 @@ impl Workpiece {
                 !asked.iter().any(|question| question.text.split_once(": ").is_some_and(|(about, _)| about == name))
             };
             undecided.extend((0..desk.seams.len()).filter(is_new).filter_map(|seam| Undecided::unsure(&desk, seam)));
-            undecided.splice(0..0, asked.into_iter().map(Undecided::asked));
             let entries = SeamFile::parse(&file.bytes, &file.name).origin(Origin::Pattern)?;
+            let drawn = self.drawn(&entries, &desk)?;
+            undecided.splice(0..0, asked.into_iter().map(|question| Undecided::asked(&desk, &drawn, question)));
+            answered = marked(&text, ANSWERED).count();
             tolerance_mm = entries.length_tolerance_mm;
             let found = self.findings(&style)?;
             // A piece that the file does not name is left out on purpose, so it raises no question.
@@ -114,7 +118,23 @@ impl Workpiece {
         }
         let length =
             |m: &pattern::style::StyleMeasurement| DeskLength { no: m.no, name: m.name.clone(), l2d_mm: mm(m.l2d_m) };
-        Ok(LaidOut { desk, lengths: style.measurements.iter().map(length).collect(), undecided, tolerance_mm })
+        let lengths = style.measurements.iter().map(length).collect();
+        Ok(LaidOut { desk, lengths, undecided, answered, tolerance_mm })
+    }
+
+    /// Pieces of the desk, each by its names in the pattern file.
+    fn drawn(&self, entries: &SeamFile, desk: &Desk) -> Result<Vec<(String, usize)>> {
+        let pieces = patterns::pieces(&self.pattern, Some(&self.size), self.unit)?;
+        let mut drawn = Vec::new();
+        for (k, piece) in desk.pieces.iter().enumerate() {
+            let Some(entry) = entries.piece.get(&piece.id) else { continue };
+            let own = pieces.iter().filter(|piece| piece.block == entry.block || piece.name == entry.block);
+            let names = std::iter::once(&entry.block).chain(own.map(|piece| &piece.name));
+            drawn.extend(names.map(|name| (name.clone(), k)));
+        }
+        drawn.sort_by(|(name, k), (other, j)| (k, name).cmp(&(j, other)));
+        drawn.dedup();
+        Ok(drawn)
     }
 
     /// Returns the seam file after a step.

@@ -38,6 +38,7 @@ pub fn recommended(state: &State) -> Option<&RecommendationRow> {
 /// Marks a run, or takes the mark away.
 pub fn mark_run(state: &mut State) {
     let Some(id) = state.job().map(|job| job.id) else { return state.say("no job is selected") };
+    begin_marking(state);
     state.marks.toggle(id);
     tell_marks(state);
 }
@@ -45,14 +46,23 @@ pub fn mark_run(state: &mut State) {
 /// Marks the shown runs from the one that was marked last to the selected one.
 pub fn mark_range(state: &mut State, shown: &[JobId]) {
     let Some(id) = state.job().map(|job| job.id) else { return state.say("no job is selected") };
+    begin_marking(state);
     state.marks.extend_to(shown, id);
     tell_marks(state);
 }
 
 /// Marks all shown runs, or takes their marks away.
 pub fn mark_all(state: &mut State, shown: &[JobId]) {
+    begin_marking(state);
     state.marks.toggle_all(shown);
     tell_marks(state);
+}
+
+/// Remembers the list in which runs are marked: their marks go where it is left.
+fn begin_marking(state: &mut State) {
+    if state.marks.is_empty() {
+        state.nav.marked_on = state.nav.screen;
+    }
 }
 
 fn tell_marks(state: &mut State) {

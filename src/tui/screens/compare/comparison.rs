@@ -1,7 +1,10 @@
 //! Comparison of runs, measurement by measurement, with its conclusions.
 
+use std::collections::BTreeMap;
+
 use crate::messages::snapshot::Compared;
 use crate::widgets::text;
+use fit::Simulator;
 use store::{ChiRow, JobRow, RecommendationRow};
 
 /// Most runs in a comparison.
@@ -116,6 +119,9 @@ pub fn verdict(runs: &[Compared], recommended: Option<&RecommendationRow>) -> Ve
     if !rows.is_empty() {
         said.push(format!("nearest to 1, of {} measurements: {}, even {ties}", rows.len(), wins.join(", ")));
     }
+    for (run, name) in runs.iter().zip(&names) {
+        said.extend(run.job.inside().map(|words| format!("{name} lies {words} the body: cloth could not")));
+    }
     let restored = runs.iter().zip(&names).filter(|(run, _)| run.chi.iter().any(|row| row.is_controlled));
     let restored: Vec<&str> = restored.map(|(_, name)| name.as_str()).collect();
     if !restored.is_empty() && restored.len() < runs.len() {
@@ -132,6 +138,26 @@ pub fn verdict(runs: &[Compared], recommended: Option<&RecommendationRow>) -> Ve
         ));
     }
     said
+}
+
+/// Sentence on both simulators over all sizes and subjects of a garment that both have draped: mean EI, and how often
+/// each has the less. `None` for fewer than two of them.
+#[must_use]
+pub fn of_study(jobs: &[JobRow], of: &JobRow) -> Option<String> {
+    let is_it = |job: &&JobRow| job.study == of.study && job.garment == of.garment && job.is_current;
+    let mut pairs: BTreeMap<(&str, &str, u32), [Option<f64>; 2]> = BTreeMap::new();
+    for job in jobs.iter().filter(is_it) {
+        let pair = pairs.entry((&job.size, &job.subject, job.repeat)).or_default();
+        pair[usize::from(job.simulator == Simulator::Hybrid)] = job.ei;
+    }
+    let pairs: Vec<[f64; 2]> = pairs.into_values().filter_map(|[fem, hybrid]| Some([fem?, hybrid?])).collect();
+    let count = pairs.len();
+    let mean = |k: usize| pairs.iter().map(|pair| pair[k]).sum::<f64>() / count as f64;
+    let less = |k: usize| pairs.iter().filter(|pair| pair[k] < pair[1 - k]).count();
+    (count > 1).then(|| {
+        let told = |k: usize, name: &str| format!("{name} {:.4} (less in {})", mean(k), less(k));
+        format!("all {count} pairs of {}: mean EI {}, {}", of.garment, told(0, "FEM"), told(1, "HYB"))
+    })
 }
 
 /// Names the run with the least EI, or the runs that are equally good in practice.

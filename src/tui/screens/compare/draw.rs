@@ -11,7 +11,7 @@ use ratatui::widgets::Paragraph;
 use crate::messages::snapshot::Compared;
 use crate::overlays::explanation::Selected;
 use crate::screens::compare::actions::{compared, recommended, to_compare};
-use crate::screens::compare::comparison::{ComparisonRow, differing_inputs, labels, verdict};
+use crate::screens::compare::comparison::{ComparisonRow, differing_inputs, labels, of_study, verdict};
 use crate::screens::compare::state::CompareScreen;
 use crate::screens::page::Draw;
 use crate::screens::picture_pane::actions::requests;
@@ -21,7 +21,7 @@ use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{listed, pane};
 use crate::widgets::picture::{PictureRequest, Pictured};
-use crate::widgets::text::{self, left, mm, right, shortened, wrapped};
+use crate::widgets::text::{self, left, mm, right, wrapped};
 use crate::widgets::theme::glyph;
 use store::{JobRow, MetricsRow};
 
@@ -179,7 +179,10 @@ fn panes(area: Rect, state: &State) -> Panes {
     } else {
         [area, Rect::ZERO]
     };
-    let height = if area.height >= 30 { 10 } else { 8 };
+    // The verdict is shown whole, as long as half of the lines are left for the measurements.
+    let least = if area.height >= 30 { 10 } else { 8 };
+    let verdict = said(state, compared(state), usize::from(jump::inside(left).width)).len() as u16 + 2;
+    let height = verdict.max(least).min((area.height / 2).max(least));
     let [table, verdict] = Layout::vertical([Constraint::Fill(1), Constraint::Length(height)]).areas(left);
     let pictures = if wide { pictures(right, 3) } else { vec![] };
     Panes { table: Some(table), verdict: Some(verdict), pictures }
@@ -196,11 +199,12 @@ fn said(state: &State, runs: &[Compared], width: usize) -> Vec<Line<'static>> {
     let inputs = differing_inputs(runs).join(", ");
     let inputs = if inputs.is_empty() { "all inputs are the same".to_owned() } else { format!("differ in: {inputs}") };
     let mut lines = vec![];
-    for (k, sentence) in verdict(runs, recommended(state)).into_iter().enumerate() {
+    let study = state.data.as_ref().zip(runs.first()).and_then(|(data, run)| of_study(&data.jobs, &run.job));
+    for (k, sentence) in verdict(runs, recommended(state)).into_iter().chain(study).enumerate() {
         let style = if k == 0 { state.theme.bold() } else { Style::new() };
         lines.extend(wrapped(&sentence, width).into_iter().map(|line| Line::styled(line, style)));
         if k == 0 {
-            lines.push(Line::styled(shortened(&inputs, width), state.theme.dim()));
+            lines.extend(wrapped(&inputs, width).into_iter().map(|line| Line::styled(line, state.theme.dim())));
         }
     }
     lines

@@ -76,9 +76,8 @@ impl FabricsScreen {
     pub fn remove(&self, state: &mut State) {
         if catalogue::may_change(state, Part::Fabric) {
             let selected = self.selected(state).map(|row| row.fabric.name.clone());
-            let marked: Vec<String> = self.marks.iter().cloned().collect();
-            let names = if marked.is_empty() { selected.into_iter().collect() } else { marked };
-            catalogue::remove(state, Part::Fabric, names);
+            let shown: Vec<String> = self.shown(state).iter().map(|row| row.fabric.name.clone()).collect();
+            catalogue::remove_marked(state, Part::Fabric, &self.marks, &shown, selected);
         }
     }
 

@@ -36,6 +36,10 @@ impl Page for FabricsScreen {
         self.order.reverse();
     }
 
+    fn left(&mut self) {
+        self.marks.clear();
+    }
+
     fn receive(&mut self, state: &State) {
         let all = state.data.as_ref().map_or(&[][..], |data| &data.fabrics);
         self.marks.keep(|name| all.iter().any(|row| row.fabric.name == *name));

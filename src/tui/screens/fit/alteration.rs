@@ -73,7 +73,11 @@ impl Alter {
             ),
             (None, Draping::No) => vec![],
         };
-        let remarks: Vec<Line<'static>> = found.remarks.iter().flat_map(|remark| hanging(remark, columns)).collect();
+        // The limit is a flag of the command; no key here changes it.
+        let in_words =
+            |remark: &String| remark.replace("--limit-mm allows", "in a shell, toile alter --limit-mm allows");
+        let remarks: Vec<Line<'static>> =
+            found.remarks.iter().flat_map(|remark| hanging(&in_words(remark), columns)).collect();
         let told = |is_whole: bool, gap: &[Line<'static>]| {
             let (moves, levels) = (moves(theme, found, columns, is_whole), levels(state, found, columns));
             let mut parts = vec![verdict(theme, found, columns), moves, levels, drape.clone(), remarks.clone()];

@@ -67,7 +67,7 @@ impl Alter {
             Some(size) => vec![self.ask(AlterRequest { size, ..asked })],
             None => {
                 let way = if step > 0 { "larger" } else { "smaller" };
-                state.reply(format!("there is no {way} size than {}", asked.size))
+                state.reply(format!("this study has no {way} size than {}", asked.size))
             }
         }
     }

@@ -3,17 +3,16 @@
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::messages::requests::{Command, Target};
+use crate::screens::catalogue::hidden_words;
 use crate::screens::jobs::state::JobsScreen;
 use crate::screens::movement::Movement;
 use crate::screens::state::State;
+use crate::screens::study::actions::grid_jobs;
 use crate::widgets::text;
 use engine::why_no_retry;
 use sim::Step;
 use store::owner::Runner;
-use store::{JobId, JobRow};
-
-/// Message where there is no job to act on.
-const NO_JOB: &str = "no job is selected";
+use store::{JobId, JobRow, Status};
 
 impl JobsScreen {
     /// Jobs that pass the filter, in the order of the list.
@@ -78,59 +77,120 @@ pub fn pause(state: &State) -> Vec<Effect> {
     vec![Effect::Do(if study.paused { Command::Resume(name) } else { Command::Pause(name) })]
 }
 
-/// Jobs to act on: the marked ones; without marks, the selected one.
-fn acted_on(state: &State) -> Vec<&JobRow> {
-    let Some(data) = &state.data else { return vec![] };
-    if state.marks.is_empty() { state.job().into_iter().collect() } else { data.jobs_of(state.marks.iter()) }
+/// Jobs to act on, and the number of marked ones that are not seen and stay as they are.
+struct ActedOn<'a> {
+    jobs: Vec<&'a JobRow>,
+    hidden: usize,
 }
 
-/// Cancels the marked jobs or the selected one, after a question.
-pub fn cancel(state: &mut State) -> Vec<Effect> {
-    let jobs = acted_on(state);
-    let open: Vec<&JobRow> = jobs.iter().copied().filter(|job| !job.status.is_final()).collect();
-    let text = match (&jobs[..], &open[..]) {
-        ([], _) => return state.reply(NO_JOB),
-        ([job], []) => {
-            return state.reply(format!("job {} has ended ({}): nothing to cancel", job.id, text::status(job.status)));
-        }
-        (_, []) => return state.reply(format!("all {} selected jobs have ended: nothing to cancel", jobs.len())),
-        ([job], _) => {
-            let JobRow { id, garment, size, subject, .. } = job;
-            format!("Cancel job {id}, {garment} {size} on {subject} by {}?", text::sim(job.simulator))
-        }
-        _ if open.len() == jobs.len() => format!("Cancel the {} selected jobs?", jobs.len()),
-        _ => format!("Cancel {} of the {} selected jobs? The others have ended.", open.len(), jobs.len()),
-    };
-    let effects = vec![Effect::Do(Command::Cancel(open.iter().map(|job| job.id).collect()))];
-    state.ask(text, effects);
-    vec![]
-}
-
-/// Queues the marked jobs or the selected one again.
-pub fn retry(state: &mut State) -> Vec<Effect> {
-    let jobs = acted_on(state);
-    let ended: Vec<JobId> = jobs.iter().filter(|job| why_no_retry(job.status).is_none()).map(|job| job.id).collect();
-    match (&jobs[..], ended.is_empty()) {
-        ([], _) => state.reply(NO_JOB),
-        ([job], true) => {
-            let reason = why_no_retry(job.status).unwrap_or_default();
-            state.reply(format!("job {} is not run again: {reason}", job.id))
-        }
-        (_, true) => state.reply(format!(
-            "none of the {} selected jobs failed or was cancelled; u takes the selection back",
-            jobs.len()
-        )),
-        (_, false) => vec![Effect::Do(Command::Retry(ended))],
+impl ActedOn<'_> {
+    /// Sentence about the marked jobs that stay as they are; empty without any.
+    fn rest(&self) -> String {
+        if self.hidden > 0 { format!(" {}: not touched.", hidden_words(self.hidden)) } else { String::new() }
     }
 }
 
-/// Adds a step to the priority of the marked jobs or the selected one.
-pub fn prioritise(state: &mut State, step: i64) -> Vec<Effect> {
-    let jobs = acted_on(state);
-    if jobs.is_empty() {
-        return state.reply(NO_JOB);
+impl JobsScreen {
+    /// Jobs that the shown screen shows: those of its list or grid, or the one result.
+    fn seen(&self, state: &State) -> Vec<JobId> {
+        match state.nav.screen {
+            Screen::Jobs => self.shown_ids(state),
+            Screen::Study => grid_jobs(state),
+            _ => state.focus.job.into_iter().collect(),
+        }
     }
-    jobs.iter().map(|job| Effect::Do(Command::Prioritise(job.id, job.priority + step))).collect()
+
+    /// Jobs to act on: the marked ones that are seen; without marks, the selected one.
+    fn acted_on<'a>(&self, state: &'a State) -> ActedOn<'a> {
+        let Some(data) = &state.data else { return ActedOn { jobs: vec![], hidden: 0 } };
+        if state.marks.is_empty() {
+            return ActedOn { jobs: state.job().into_iter().collect(), hidden: 0 };
+        }
+        let (seen, hidden) = state.marks.seen(&self.seen(state));
+        ActedOn { jobs: data.jobs_of(seen.iter()), hidden }
+    }
+
+    /// Cancels the marked jobs or the selected one, after a question.
+    pub fn cancel(&self, state: &mut State) -> Vec<Effect> {
+        let acted_on = self.acted_on(state);
+        let (jobs, rest) = (&acted_on.jobs, acted_on.rest());
+        let open: Vec<&JobRow> = jobs.iter().copied().filter(|job| !job.status.is_final()).collect();
+        let text = match (&jobs[..], &open[..]) {
+            ([], _) => return state.reply(nothing(&rest)),
+            ([job], []) => {
+                let status = text::status(job.status);
+                return state.reply(format!("job {} has ended ({status}): nothing to cancel.{rest}", job.id));
+            }
+            (_, []) => {
+                return state.reply(format!("all {} selected jobs have ended: nothing to cancel.{rest}", jobs.len()));
+            }
+            ([job], _) => {
+                let JobRow { id, garment, size, subject, .. } = job;
+                format!("Cancel job {id}, {garment} {size} on {subject} by {}?", text::sim(job.simulator))
+            }
+            _ if open.len() == jobs.len() => format!("Cancel the {} selected jobs?", jobs.len()),
+            _ => format!("Cancel {} of the {} selected jobs? The others have ended.", open.len(), jobs.len()),
+        };
+        let effects = vec![Effect::Do(Command::Cancel(open.iter().map(|job| job.id).collect()))];
+        state.ask(text + &rest, effects);
+        vec![]
+    }
+
+    /// Queues the marked jobs or the selected one again; asks where marked ones are not seen.
+    pub fn retry(&self, state: &mut State) -> Vec<Effect> {
+        let acted_on = self.acted_on(state);
+        let (jobs, rest) = (&acted_on.jobs, acted_on.rest());
+        let ended: Vec<JobId> =
+            jobs.iter().filter(|job| why_no_retry(job.status).is_none()).map(|job| job.id).collect();
+        match (&jobs[..], ended.is_empty()) {
+            ([], _) => state.reply(nothing(&rest)),
+            ([job], true) => {
+                let reason = why_no_retry(job.status).unwrap_or_default();
+                state.reply(format!("job {} is not run again: {reason}.{rest}", job.id))
+            }
+            (_, true) => state.reply(format!(
+                "none of the {} selected jobs failed or was cancelled; u takes the selection back.{rest}",
+                jobs.len()
+            )),
+            (_, false) if !rest.is_empty() => {
+                let text = format!("Queue {} selected jobs again?{rest}", ended.len());
+                state.ask(text, vec![Effect::Do(Command::Retry(ended))]);
+                vec![]
+            }
+            (_, false) => vec![Effect::Do(Command::Retry(ended))],
+        }
+    }
+
+    /// Adds a step to the priority of the marked jobs that are seen, or of the selected one.
+    pub fn prioritise(&self, state: &mut State, step: i64) -> Vec<Effect> {
+        let acted_on = self.acted_on(state);
+        if acted_on.jobs.is_empty() {
+            let text = nothing(&acted_on.rest());
+            return state.reply(text);
+        }
+        acted_on.jobs.iter().map(|job| Effect::Do(Command::Prioritise(job.id, job.priority + step))).collect()
+    }
+}
+
+/// Message where there is no job to act on.
+fn nothing(rest: &str) -> String {
+    format!("no job is selected here.{rest}")
+}
+
+/// Queues all failed jobs of the study again.
+pub fn retry_failed(state: &mut State) -> Vec<Effect> {
+    let study = state.focus.study.as_deref().or(state.study().map(|study| study.name.as_str()));
+    let jobs = state.data.iter().flat_map(|data| &data.jobs);
+    let is_failed = |job: &&JobRow| job.status == Status::Failed && Some(job.study.as_str()) == study;
+    let failed: Vec<JobId> = jobs.filter(is_failed).map(|job| job.id).collect();
+    match (failed.is_empty(), study) {
+        (false, _) => vec![Effect::Do(Command::Retry(failed))],
+        (true, Some(study)) => {
+            let text = format!("no job of {study} has failed");
+            state.reply(text)
+        }
+        (true, None) => state.reply("there is no study yet"),
+    }
 }
 
 /// Runs the study; without a study, the quickstart.

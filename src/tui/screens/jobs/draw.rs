@@ -13,7 +13,7 @@ use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::is_narrow;
 use crate::widgets::lists::{first_shown, listed, no_rows, pane};
 use crate::widgets::text::{self, left, right, sparkline, wrapped};
-use crate::widgets::theme::glyph;
+use crate::widgets::theme::sign;
 use store::{JobRow, LogLine, Status};
 
 impl Draw for JobsScreen {
@@ -160,8 +160,10 @@ impl JobsScreen {
             let share = job.progress.as_ref().map(|progress| format!("{:.0}%", progress.fraction * 100.0));
             let number = share.or(job.ei.map(|ei| format!("{ei:.4}"))).unwrap_or_default();
             let cell = format!("{} {} {} {}", job.garment, job.size, job.subject, text::sim(job.simulator));
-            let text = format!("{} {} {} {cell}", right(&job.id.to_string(), id), glyph(job.status), left(&number, 6));
-            let style = if k == at { state.theme.selected() } else { state.theme.status(job.status) };
+            let sign = sign(job.status, job.inside().is_some());
+            let text = format!("{} {} {} {cell}", right(&job.id.to_string(), id), left(&sign, 2), left(&number, 6));
+            let own = state.theme.result(job.status, job.inside().is_some());
+            let style = if k == at { state.theme.selected() } else { own };
             Line::styled(text::shortened(&text, usize::from(area.width)), style)
         };
         jobs.iter().enumerate().skip(first).take(height).map(line).collect()
@@ -209,7 +211,7 @@ impl Columns {
         let garment = longest(|job| &job.garment, 5, (names / 2).max(9));
         let size = longest(|job| &job.size, 4, (names / 6).max(6));
         let subject = longest(|job| &job.subject, 4, names.saturating_sub(garment + size).max(7));
-        let used = Self::FIXED + id + garment + size + subject + 3 + bar;
+        let used = Self::FIXED + id + garment + size + subject + bar;
         Self { id, garment, size, subject, bar, why: width.saturating_sub(used) }
     }
 }
@@ -229,11 +231,12 @@ fn line(state: &State, job: &JobRow, columns: &Columns) -> Line<'static> {
         if columns.bar > 0 { format!("{bar} {share}") } else { share }
     });
     let time = |ms: Option<i64>| ms.map_or("—".to_owned(), text::duration);
-    let status = state.theme.status(job.status);
+    let is_inside = job.inside().is_some();
+    let status = state.theme.result(job.status, is_inside);
     let why = text::why(job, is_paused);
     Line::from(vec![
         Span::raw(format!("{}{}", right(&job.id.to_string(), columns.id), left(state.mark_of(Some(job.id)), 1))),
-        Span::styled(left(glyph(job.status), 2), status),
+        Span::styled(left(&sign(job.status, is_inside), 2), status),
         Span::raw(format!(
             " {} {} {} {}",
             left(&job.garment, columns.garment),

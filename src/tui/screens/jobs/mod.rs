@@ -41,10 +41,11 @@ impl Page for JobsScreen {
     fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {
         Some(match action {
             Action::Pause => actions::pause(state),
-            Action::Cancel => actions::cancel(state),
-            Action::Retry => actions::retry(state),
-            Action::Raise => actions::prioritise(state, 1),
-            Action::Lower => actions::prioritise(state, -1),
+            Action::Cancel => self.cancel(state),
+            Action::Retry => self.retry(state),
+            Action::RetryFailed => actions::retry_failed(state),
+            Action::Raise => self.prioritise(state, 1),
+            Action::Lower => self.prioritise(state, -1),
             Action::Run => actions::start_run(state),
             Action::Stop => actions::stop_run(state),
             Action::MarkRange if state.nav.screen == Screen::Jobs => {

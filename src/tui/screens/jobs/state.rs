@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::screens::order::Order;
 use crate::widgets::text;
-use crate::widgets::theme::glyph;
+use crate::widgets::theme::sign;
 use sim::Step;
 use store::{JobId, JobRow, Status};
 
@@ -125,7 +125,7 @@ fn words(job: &JobRow, is_paused: bool) -> String {
     format!(
         "{} {} {} {} {} {} {} {progress} {} {} {}",
         job.id,
-        glyph(job.status),
+        sign(job.status, job.inside().is_some()),
         text::status(job.status),
         job.garment,
         job.size,

@@ -8,7 +8,7 @@ use crate::screens::measurements::state::{ChiOrder, marks};
 use crate::screens::state::State;
 use crate::widgets::lists::listed;
 use crate::widgets::text::{self, chi_bar, chi_mark, ease_mm, left, mm, right, wrapped};
-use crate::widgets::theme::glyph;
+use crate::widgets::theme::sign;
 use store::{ChiRow, FitCell, MetricsRow};
 
 /// Legend of the marks after names.
@@ -93,8 +93,12 @@ pub fn numbers(state: &State, columns: usize) -> Vec<Line<'static>> {
     let Some(job) = state.job() else { return vec![] };
     let wall = job.wall_ms.map_or(String::new(), |ms| format!(" in {}", text::duration(ms)));
     let share = job.progress.as_ref().map_or(String::new(), |p| format!(" {} {:.0}%", p.phase, p.fraction * 100.0));
-    let status = format!("{} {}{share}{wall}", glyph(job.status), text::status(job.status));
-    let mut lines = vec![Line::styled(text::shortened(&status, columns), state.theme.status(job.status))];
+    let inside = job.inside();
+    let style = state.theme.result(job.status, inside.is_some());
+    let sign = sign(job.status, inside.is_some());
+    let inside = inside.map_or(String::new(), |words| format!(", {words}"));
+    let status = format!("{sign} {}{inside}{share}{wall}", text::status(job.status));
+    let mut lines = vec![Line::styled(text::shortened(&status, columns), style)];
     if let Some(ease) = state.data.as_ref().and_then(|data| data.ease_of(job)) {
         lines.push(fact(
             "ease mm",

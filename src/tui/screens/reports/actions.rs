@@ -10,6 +10,7 @@ use crate::screens::reports::state::ReportsScreen;
 use crate::screens::state::State;
 use crate::widgets::text;
 use results::ReportRow;
+use store::files::word;
 
 impl ReportsScreen {
     /// Reports that pass the filter of the screen.
@@ -99,6 +100,14 @@ fn is_opened(address: &str) -> bool {
     }
     let quiet = || Stdio::null();
     Command::new("xdg-open").arg(address).stdin(quiet()).stdout(quiet()).stderr(quiet()).spawn().is_ok()
+}
+
+/// Command that copies the folder of a report's page onto the user's own machine.
+#[must_use]
+pub fn fetching(state: &State, page: &Path) -> String {
+    let page = std::path::absolute(page).unwrap_or_else(|_| page.to_owned());
+    let folder = page.parent().unwrap_or(&page).display().to_string();
+    format!("scp -r {}:{} .", state.setup.login, word(&folder))
 }
 
 /// Address of a page for a browser on this machine.

@@ -6,7 +6,7 @@ use ratatui::text::Line;
 use ratatui::widgets::{Paragraph, Wrap};
 
 use crate::screens::page::Draw;
-use crate::screens::reports::actions::{address, facts};
+use crate::screens::reports::actions::{address, facts, fetching};
 use crate::screens::reports::state::ReportsScreen;
 use crate::screens::state::State;
 use crate::widgets::jump::{self, Target};
@@ -66,11 +66,9 @@ impl ReportsScreen {
             None => vec![Line::raw("A report is one page with its pictures and raw data: HTML, PNG, CSV.")],
             Some(row) => vec![
                 Line::raw(address(&row.page)),
-                Line::styled(
-                    "↵ opens it where there is a display, else copies its address; y copies its path",
-                    state.theme.dim(),
-                ),
-                Line::styled("from your own machine: scp -r this folder, then open index.html", state.theme.dim()),
+                Line::styled("↵ opens it where there is a display, else copies its address", state.theme.dim()),
+                Line::styled("y copies the line for your own machine; then open index.html there:", state.theme.dim()),
+                Line::raw(fetching(state, &row.page)),
             ],
         };
         frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }).block(block), area);

@@ -8,6 +8,7 @@ use crate::keys::action::Action;
 use crate::messages::effect::Effect;
 use crate::screens::movement::Movement;
 use crate::screens::page::{Copied, Page};
+use crate::screens::reports::actions::fetching;
 use crate::screens::reports::state::ReportsScreen;
 use crate::screens::state::State;
 
@@ -21,7 +22,8 @@ impl Page for ReportsScreen {
     }
 
     fn copied(&self, state: &State) -> Option<Copied> {
-        self.selected(state).map(|row| Copied { name: "the path", text: row.page.display().to_string() })
+        self.selected(state)
+            .map(|row| Copied { name: "the command for your own machine", text: fetching(state, &row.page) })
     }
 
     fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

@@ -1,5 +1,7 @@
 //! Drawing a query and its answer.
 
+use std::ops::Range;
+
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Modifier, Style};
@@ -69,7 +71,7 @@ impl SqlScreen {
     /// Panes of editor and answer, and of the catalogue beside the answer: always where there is room, else while the
     /// query is typed. Before there is anything to stand beside, the answer's pane has all views with their columns.
     fn panes(&self, area: Rect, state: &State) -> Panes {
-        let lines = self.editor.text().matches('\n').count() as u16 + 1;
+        let lines = editor_rows(self.editor.text(), jump::inside(area).width).len() as u16;
         let height = (lines + 2).clamp(if area.height < 16 { 3 } else { 6 }, (area.height / 2).max(3));
         let [editor, below] = Layout::vertical([Constraint::Length(height), Constraint::Fill(1)]).areas(area);
         let is_bare = self.table.is_none() && self.named().is_empty();
@@ -120,15 +122,13 @@ impl SqlScreen {
         let editor = &self.editor;
         let (line, column) = editor.place();
         let room = usize::from(inner.height);
-        let first = first_shown(line, editor.text().split('\n').count(), room);
-        let from = (column + 1).saturating_sub(usize::from(inner.width));
-        let mut lines: Vec<Line<'_>> = editor
-            .text()
-            .split('\n')
-            .enumerate()
-            .skip(first)
+        let rows = editor_rows(editor.text(), inner.width);
+        let at = rows.iter().rposition(|row| row.line == line && row.letters.start <= column).unwrap_or(0);
+        let first = first_shown(at, rows.len(), room);
+        let texts: Vec<&str> = editor.text().split('\n').collect();
+        let mut lines: Vec<Line<'_>> = (first..rows.len())
             .take(room)
-            .map(|(k, text)| query_line(state, text, from, (focused && k == line).then_some(column)))
+            .map(|k| query_line(state, texts[rows[k].line], &rows[k].letters, (focused && k == at).then_some(column)))
             .collect();
         if editor.text().is_empty() {
             let hint = "SELECT study, garment, size, subject, simulator, ei FROM v_metrics ORDER BY ei DESC";
@@ -137,8 +137,9 @@ impl SqlScreen {
         }
         frame.render_widget(Paragraph::new(lines).block(block), area);
         if let Some(offer) = editor.offer().filter(|_| focused) {
+            let from = rows.get(at).map_or(0, |row| row.letters.start);
             let x = inner.x + ((column.saturating_sub(from)) as u16).min(inner.width.saturating_sub(24));
-            let y = inner.y + (line - first) as u16 + 1;
+            let y = inner.y + (at - first) as u16 + 1;
             draw_offer(frame, Rect::new(x, y, 24, OFFERED as u16).intersection(screen), offer, state);
         }
     }
@@ -202,8 +203,36 @@ fn columns(names: &[String], width: usize) -> Vec<String> {
     names.chunks(across).map(|names| shortened(format!(" {}", line(names)).trim_end(), width)).collect()
 }
 
-/// Line of the query from a column on, with SQL words and the cursor highlighted.
-fn query_line(state: &State, text: &str, from: usize, cursor: Option<usize>) -> Line<'static> {
+/// A row of the editor: a line of the query, or the part of a long one that fits.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct EditorRow {
+    /// Index of the line.
+    line: usize,
+    /// Letters of the line.
+    letters: Range<usize>,
+}
+
+/// Rows of a query in some columns, of which the last is for the cursor. Long lines break after a space, if one is there.
+fn editor_rows(text: &str, columns: u16) -> Vec<EditorRow> {
+    let room = usize::from(columns.saturating_sub(1)).max(1);
+    let mut rows = vec![];
+    for (line, text) in text.split('\n').enumerate() {
+        let letters: Vec<char> = text.chars().collect();
+        let mut from = 0;
+        while letters.len() - from > room {
+            let space = (from + 1..=from + room).rev().find(|end| letters[end - 1] == ' ');
+            let end = space.unwrap_or(from + room);
+            rows.push(EditorRow { line, letters: from..end });
+            from = end;
+        }
+        // The cursor may stand after the last letter.
+        rows.push(EditorRow { line, letters: from..letters.len() + 1 });
+    }
+    rows
+}
+
+/// Some letters of a line of the query, with SQL words and the cursor highlighted.
+fn query_line(state: &State, text: &str, shown: &Range<usize>, cursor: Option<usize>) -> Line<'static> {
     let letters: Vec<char> = text.chars().chain(cursor.map(|_| ' ')).collect();
     let is_comment = text.trim_start().starts_with("--");
     let mut spans: Vec<Span<'static>> = vec![];
@@ -219,9 +248,10 @@ fn query_line(state: &State, text: &str, from: usize, cursor: Option<usize>) -> 
         };
         for (at, letter) in (k..end).zip(word.chars()) {
             let style = if cursor == Some(at) { style.patch(state.theme.selected()) } else { style };
-            match spans.last_mut().filter(|last| at > from && last.style == style) {
+            match spans.last_mut().filter(|last| at > shown.start && last.style == style) {
+                _ if at >= shown.end => {}
                 Some(last) => last.content.to_mut().push(letter),
-                None if at >= from => spans.push(Span::styled(letter.to_string(), style)),
+                None if at >= shown.start => spans.push(Span::styled(letter.to_string(), style)),
                 None => {}
             }
         }
@@ -314,4 +344,24 @@ fn row_line(state: &State, table: &ResultTable, row: usize, shown: &[usize]) -> 
         spans.push(Span::styled(cell, style));
     }
     Line::from(spans)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_lines_of_a_query_break_after_spaces() {
+        let check = |text: &str, columns: u16, expect: &[&str]| {
+            let lines: Vec<Vec<char>> = text.split('\n').map(|line| line.chars().collect()).collect();
+            let shown = |row: &EditorRow| lines[row.line][row.letters.start..].iter().take(row.letters.len()).collect();
+            let rows: Vec<String> = editor_rows(text, columns).iter().map(shown).collect();
+            assert_eq!(rows, expect, "{text} in {columns}");
+        };
+        check("select 1", 20, &["select 1"]);
+        check("select ei from v_metrics", 12, &["select ei ", "from ", "v_metrics"]);
+        check("a\n\nselect ei", 8, &["a", "", "select ", "ei"]);
+        check("abcdefghij", 5, &["abcd", "efgh", "ij"]);
+        check("", 5, &[""]);
+    }
 }

@@ -1,5 +1,6 @@
 //! Moving in the grid; changing garment or study; making a study.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use crate::keys::screen::Screen;
@@ -13,8 +14,8 @@ use crate::overlays::study_form::{Filter, StudyForm};
 use crate::screens::measurements::draw as measured;
 use crate::screens::movement::{Movement, stepped};
 use crate::screens::state::State;
-use crate::widgets::text;
-use crate::widgets::theme::{fit_glyph, glyph};
+use crate::widgets::text::{self, left};
+use crate::widgets::theme::{fit_glyph, glyph, sign};
 use engine::{NewOutfit, wearables};
 use sim::fabric::USUAL as USUAL_FABRIC;
 use store::{Cell, FitCell, JobId, Status};
@@ -40,7 +41,7 @@ pub fn cell_text(cell: &Cell) -> String {
     let Some(status) = cell.status else { return "·".into() };
     match (status, cell.ei, cell.fraction) {
         (Status::Running, _, Some(share)) => format!("{} {:.0}%", glyph(status), share * 100.0),
-        (_, Some(ei), _) => format!("{} {}", glyph(status), text::ei(ei)),
+        (_, Some(ei), _) => format!("{}{}", left(&sign(status, cell.is_inside), 2), text::ei(ei)),
         _ => glyph(status).to_owned(),
     }
 }
@@ -57,6 +58,12 @@ pub fn places(state: &State) -> Vec<Place> {
     let (sizes, simulators, subjects) = (grid.sizes.len(), grid.simulators.len(), grid.subjects.len());
     let rows = (0..sizes).flat_map(|size| (0..simulators).map(move |simulator| (size, simulator)));
     rows.flat_map(|(size, simulator)| (0..subjects).map(move |subject| Place { size, simulator, subject })).collect()
+}
+
+/// Jobs of all cells, row by row.
+#[must_use]
+pub fn grid_jobs(state: &State) -> Vec<JobId> {
+    places(state).into_iter().filter_map(|place| state.data.as_ref()?.cell_at(place)?.job).collect()
 }
 
 /// Jobs of the cells that match the filter, row by row.
@@ -150,6 +157,7 @@ pub fn new_study(state: &mut State) {
         fabrics,
         simulators: spec::SIMULATORS.map(|simulator| (simulator, true)).to_vec(),
         sizes: wearables(&data.sizes).into_iter().map(|wearable| (wearable, false)).collect(),
+        opened: BTreeSet::new(),
         outfits: outfits(data).into_iter().map(|outfit| (outfit, false)).collect(),
         own_outfit: String::new(),
         subjects: data.subjects.iter().map(|row| (row.name.clone(), false)).collect(),

@@ -196,7 +196,7 @@ fn row(state: &State, grid: &Grid, subjects: Range<usize>, size: usize, simulato
     for subject in subjects {
         let place = Place { size, simulator, subject };
         let cell = &grid.cells[size][subject][simulator];
-        let mut style = cell.status.map_or(state.theme.dim(), |status| state.theme.status(status));
+        let mut style = cell.status.map_or(state.theme.dim(), |status| state.theme.result(status, cell.is_inside));
         if !is_match(state, place) {
             style = style.add_modifier(Modifier::DIM);
         }
@@ -268,7 +268,7 @@ fn draw_list(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
     let line = |place: &Place| {
         let cell = &grid.cells[place.size][place.subject][place.simulator];
         let fit = grid.fits[place.size][place.subject].map_or(String::new(), |fit| ease_text(&fit));
-        let style = cell.status.map_or(state.theme.dim(), |status| state.theme.status(status));
+        let style = cell.status.map_or(state.theme.dim(), |status| state.theme.result(status, cell.is_inside));
         let style = if *place == state.place { style.patch(state.theme.selected()) } else { style };
         let simulator = text::sim(grid.simulators[place.simulator]);
         let (size, subject) = (left(&grid.sizes[place.size], 4), left(&grid.subjects[place.subject], 9));

@@ -8,6 +8,7 @@ use crate::overlays::Overlay;
 use crate::screens::catalogue::{self, may_change};
 use crate::screens::movement::{Movement, stepped};
 use crate::screens::state::State;
+use crate::screens::styles::numbers::keep_numbers;
 use crate::screens::styles::state::{StylesScreen, TableLine};
 use store::OutfitRow;
 use wardrobe::{Part, SizeRow};
@@ -127,11 +128,20 @@ impl StylesScreen {
     }
 
     /// Stores a layout that is still wanted.
-    pub fn take_layout(&mut self, state: &mut State, request: LayoutRequest, outcome: Result<Box<SizeLayout>, String>) {
+    pub fn take_layout(
+        &mut self,
+        state: &mut State,
+        request: LayoutRequest,
+        mut outcome: Result<Box<SizeLayout>, String>,
+    ) {
         if self.requested.as_ref() != Some(&request) {
             return;
         }
         let is_other = self.layout.as_ref().is_none_or(|before| before.request.key.size != request.key.size);
+        let before = self.layout.as_ref().filter(|_| !is_other).and_then(|before| before.outcome.as_ref().ok());
+        if let (Some(before), Ok(now)) = (before, &mut outcome) {
+            keep_numbers(&before.out.desk.pieces, &mut now.out.desk.pieces);
+        }
         self.layout = Some(Answered { request, outcome });
         self.marks.clear();
         if is_other {

@@ -72,7 +72,10 @@ impl StylesScreen {
             (None, true) if is_free => {
                 self.ask_about(state, Asking { at: 0, own: Some(Own::Edge(edge)), goes_on: false })
             }
-            (None, true) => state.say("nothing is left to decide: e asks about an edge, o about its piece, w saves"),
+            (None, true) => {
+                let open = layout.left_open();
+                state.say(format!("no question is left. {open} e asks about an edge, o about its piece, w saves"));
+            }
         }
     }
 
@@ -118,7 +121,8 @@ impl StylesScreen {
         } else {
             self.asking = None;
             if left == 0 && !self.edits.is_empty() {
-                state.say("all is decided: w saves the seams, t tries the garment on");
+                let open = self.laid_out(state).map_or(String::new(), |layout| layout.left_open());
+                state.say(format!("no question is left. {open} w saves the seams, t tries the garment on"));
             }
         }
     }

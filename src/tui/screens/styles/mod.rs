@@ -3,11 +3,14 @@
 mod actions;
 pub mod asking;
 mod draw;
+mod labels;
+mod numbers;
 mod pieces;
 mod preview;
 mod question;
 mod seams;
 pub mod state;
+mod view;
 
 use crossterm::event::KeyEvent;
 

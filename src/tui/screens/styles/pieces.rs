@@ -2,7 +2,7 @@
 //! text can be shown by every terminal.
 
 use ratatui::Frame;
-use ratatui::layout::{Position, Rect, Size};
+use ratatui::layout::{Rect, Size};
 use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker;
 use ratatui::text::Line;
@@ -10,7 +10,9 @@ use ratatui::widgets::canvas::{Canvas, Line as Stroke};
 
 use crate::messages::seams::SizeLayout;
 use crate::screens::state::State;
+use crate::screens::styles::labels::{EdgeDots, places};
 use crate::screens::styles::state::{EdgeAt, StylesScreen};
+use crate::screens::styles::view::{View, walked};
 use crate::widgets::jump::{self, Goal, Target};
 use crate::widgets::lists::pane;
 use crate::widgets::text::{shortened, width};
@@ -18,14 +20,6 @@ use wardrobe::seams::{DeskEdge, DeskPiece, DeskSeam};
 
 /// Digits that name the answers of a question.
 const DIGITS: [&str; 9] = ["1", "2", "3", "4", "5", "6", "7", "8", "9"];
-/// Distances at which a label is tried beside its edge, in braille dots; above 0 inside the piece.
-const OFFSETS: [f64; 6] = [6.0, 9.0, 3.0, 13.0, -6.0, -9.0];
-
-/// Letter of a seam, in table and drawing.
-pub fn letter(seam: usize) -> char {
-    let small = || ('a'..='z').nth(seam.saturating_sub(26));
-    ('A'..='Z').nth(seam).or_else(small).unwrap_or('+')
-}
 
 impl StylesScreen {
     /// Draws the pane with the pieces.
@@ -55,45 +49,6 @@ pub fn targets(layout: &SizeLayout, area: Rect) -> Vec<Target> {
         Some(Target { at: view.cell(middle)?, size: Size::new(2, 1), goal: Goal::Item(k) })
     };
     layout.edges().into_iter().enumerate().filter_map(place).collect()
-}
-
-/// Scale from mm to braille dots, of which a cell has two by four.
-struct View {
-    area: Rect,
-    /// Left and upper end of the pane, mm.
-    corner: [f64; 2],
-    /// Scale, mm per dot.
-    scale: f64,
-}
-
-impl View {
-    /// View of all pieces in a pane; `None` without pieces or room.
-    fn of(area: Rect, layout: &SizeLayout) -> Option<Self> {
-        let edges = layout.out.desk.pieces.iter().flat_map(|piece| &piece.edges);
-        let points = edges.flat_map(|edge| &edge.line_mm);
-        let bounds = points.fold(None, |bounds: Option<[f64; 4]>, [x, y]| {
-            let [left, low, right, high] = bounds.unwrap_or([*x, *y, *x, *y]);
-            Some([left.min(*x), low.min(*y), right.max(*x), high.max(*y)])
-        });
-        let [left, low, right, high] = bounds?;
-        if area.width < 4 || area.height < 3 {
-            return None;
-        }
-        let dots = [f64::from(area.width) * 2.0, f64::from(area.height) * 4.0];
-        // One dot stays free on each side.
-        let scale = ((right - left) / (dots[0] - 2.0)).max((high - low) / (dots[1] - 2.0)).max(1e-6);
-        let corner = [(left + right - scale * dots[0]) / 2.0, (low + high + scale * dots[1]) / 2.0];
-        Some(Self { area, corner, scale })
-    }
-
-    /// Cell of a point; `None` outside the pane.
-    fn cell(&self, [x, y]: [f64; 2]) -> Option<Position> {
-        let column = ((x - self.corner[0]) / self.scale / 2.0).floor();
-        let row = ((self.corner[1] - y) / self.scale / 4.0).floor();
-        let is_inside =
-            column >= 0.0 && row >= 0.0 && column < f64::from(self.area.width) && row < f64::from(self.area.height);
-        is_inside.then(|| Position::new(self.area.x + column as u16, self.area.y + row as u16))
-    }
 }
 
 struct Drawing<'a> {
@@ -136,23 +91,26 @@ impl Drawing<'_> {
         frame.render_widget(canvas, *area);
     }
 
-    /// Draws the selected edge, those that a question is about, and the partner with glyphs that need no colour; possible
-    /// partners by the digits of their answers.
+    /// Draws the selected edge, or those that a question is about, and the partner with glyphs that need no colour;
+    /// possible partners by the digits of their answers.
     fn selection(&self, frame: &mut Frame<'_>) {
-        let chosen = self.screen.edge;
         let asked = self.screen.asked(self.state);
         let offered = |at: EdgeAt| {
             let choices = &asked.as_ref()?.choices;
             choices.iter().position(|choice| choice.edges.contains(&at)).filter(|place| *place < DIGITS.len())
         };
         let pointed = self.screen.pointed(self.state);
-        let seam = self.layout.seam_at(chosen).map(|k| &self.layout.out.desk.seams[k]);
-        let others = seam.map_or(&[][..], |seam| if seam.a.contains(&chosen) { &seam.b } else { &seam.a });
+        // A question marks what it is about, and nothing else.
+        let may_mark = |edge: &EdgeAt| asked.is_none() || pointed.contains(edge);
+        let chosen = Some(self.screen.edge).filter(may_mark);
+        let seam = chosen.and_then(|chosen| self.layout.seam_at(chosen)).map(|k| &self.layout.out.desk.seams[k]);
+        let is_a = seam.zip(chosen).is_some_and(|(seam, chosen)| seam.a.contains(&chosen));
+        let others = seam.map_or(&[][..], |seam| if is_a { &seam.b } else { &seam.a });
         for (at, _, edge) in self.edges() {
             let glyph = match at {
-                at if at == chosen => "●",
+                at if Some(at) == chosen => "●",
                 at if self.screen.marks.contains(&at) => "◆",
-                at if others.contains(&at) => "○",
+                at if others.contains(&at) && may_mark(&at) => "○",
                 at if pointed.contains(&at) => "●",
                 at => match offered(at) {
                     Some(place) => DIGITS[place],
@@ -164,7 +122,8 @@ impl Drawing<'_> {
                 frame.buffer_mut()[cell].set_symbol(glyph).set_style(style);
             }
         }
-        for (at, is_forwards) in seam.map_or(vec![], sides) {
+        let sides = seam.map_or(vec![], sides);
+        for (at, is_forwards) in sides.into_iter().filter(|(at, _)| may_mark(at)) {
             let edge = &self.layout.out.desk.pieces[at.0].edges[at.1];
             let [place, inwards] = edge.middle();
             // Direction along the edge: a quarter turn back from the inward normal.
@@ -190,36 +149,42 @@ impl Drawing<'_> {
         edges.sort_by(|(a, _, one), (b, _, two)| {
             rank(*a).cmp(&rank(*b)).then(two.length_mm.total_cmp(&one.length_mm)).then(a.cmp(b))
         });
+        let dots = EdgeDots::of(&self.layout.out.desk.pieces, &self.view);
         let mut taken: Vec<Rect> = vec![];
         for (at, _, edge) in edges {
-            let seam = self.layout.seam_at(at);
-            let label = format!("{}{}", edge.number, seam.map_or(String::new(), |seam| letter(seam).to_string()));
+            let label = self.layout.label(at);
             let style = match rank(at) {
                 0 => Style::new().add_modifier(Modifier::REVERSED | Modifier::BOLD),
                 _ => Style::new().fg(self.colour(at)).add_modifier(Modifier::BOLD),
             };
-            let [middle, inwards] = edge.middle();
-            let places = OFFSETS.map(|dots| [0, 1].map(|k| middle[k] + inwards[k] * dots * self.view.scale));
-            self.put(frame, &mut taken, &label, style, &places);
+            let is_beside = |cells| dots.is_beside(at, cells, &self.view);
+            self.put(frame, &mut taken, (&label, style), &places(edge, &self.view), is_beside);
         }
         for piece in &self.layout.out.desk.pieces {
             let places = [0.0, 7.0, -7.0, 14.0, -14.0].map(|dots| {
                 let [x, y] = centre(piece);
                 [x, y + dots * self.view.scale]
             });
-            self.put(frame, &mut taken, &piece.id, self.state.theme.dim(), &places);
+            self.put(frame, &mut taken, (&piece.id, self.state.theme.dim()), &places, |_| true);
         }
     }
 
-    /// Writes a label at the first of `places` where it touches no other label.
-    fn put(&self, frame: &mut Frame<'_>, taken: &mut Vec<Rect>, label: &str, style: Style, places: &[[f64; 2]]) {
+    /// Writes a label at the first of `places` that suits it, and where it touches no other label.
+    fn put(
+        &self,
+        frame: &mut Frame<'_>,
+        taken: &mut Vec<Rect>,
+        (label, style): (&str, Style),
+        places: &[[f64; 2]],
+        suits: impl Fn(Rect) -> bool,
+    ) {
         let columns = width(label) as u16;
         for cell in places.iter().filter_map(|place| self.view.cell(*place)) {
             let last = self.view.area.right().saturating_sub(columns).max(self.view.area.x);
             let x = cell.x.saturating_sub(columns / 2).clamp(self.view.area.x, last);
             let room = Rect::new(x, cell.y, columns, 1).intersection(self.view.area);
             let apart = Rect::new(x.saturating_sub(1), cell.y, columns + 2, 1);
-            if room.width == columns && !taken.iter().any(|other| other.intersects(apart)) {
+            if room.width == columns && !taken.iter().any(|other| other.intersects(apart)) && suits(room) {
                 frame.buffer_mut().set_string(x, cell.y, label, Style::reset().patch(style));
                 taken.push(room);
                 return;
@@ -244,20 +209,8 @@ fn arrow([x, y]: [f64; 2]) -> &'static str {
     }
 }
 
-/// Points along an edge, at most `apart_mm` apart.
-fn walked(edge: &DeskEdge, apart_mm: f64) -> Vec<[f64; 2]> {
-    let mut places = vec![];
-    for pair in edge.line_mm.windows(2) {
-        let [a, b] = [pair[0], pair[1]];
-        let steps = ((b[0] - a[0]).hypot(b[1] - a[1]) / apart_mm).ceil().clamp(1.0, 1e4) as usize;
-        let point_at = |share: f64| [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])];
-        places.extend((0..=steps).map(|k| point_at(k as f64 / steps as f64)));
-    }
-    places
-}
-
 /// Centre of a piece's bounding box.
-fn centre(piece: &DeskPiece) -> [f64; 2] {
+pub fn centre(piece: &DeskPiece) -> [f64; 2] {
     let points = || piece.edges.iter().flat_map(|edge| &edge.line_mm);
     [0, 1].map(|k| {
         let low = points().map(|point| point[k]).fold(f64::INFINITY, f64::min);

@@ -22,18 +22,35 @@ impl StylesScreen {
             }
             _ => "question".to_owned(),
         };
+        let title =
+            title + &self.laid_out(state).map_or(String::new(), |layout| left_out(layout.out.desk.left_out.len()));
         let block = pane(state.theme, title, true)
             .title_bottom(Line::styled(" y takes ●  A all sure  n next ", state.theme.legend()));
         let inner = block.inner(area);
-        let lines = lines(state, asked, usize::from(inner.width), usize::from(inner.height));
+        let about = self.laid_out(state).map_or(String::new(), |layout| layout.named(&self.pointed(state)));
+        let lines = lines(state, asked, &about, usize::from(inner.width), usize::from(inner.height));
         frame.render_widget(Paragraph::new(lines).block(block), area);
     }
 }
 
-/// Lines of the question and its answers; where they do not fit, the first ones and `…`.
-fn lines(state: &State, asked: &Undecided, width: usize, height: usize) -> Vec<Line<'static>> {
+/// Number of pieces that the seam file leaves out, for a title; empty for none.
+fn left_out(pieces: usize) -> String {
+    match pieces {
+        0 => String::new(),
+        1 => " · 1 piece left out".to_owned(),
+        pieces => format!(" · {pieces} pieces left out"),
+    }
+}
+
+/// Lines of the question, the edges that it is about, and its answers; where they do not fit, the first ones and `…`.
+fn lines(state: &State, asked: &Undecided, about: &str, width: usize, height: usize) -> Vec<Line<'static>> {
     let mut lines: Vec<Line<'_>> =
         wrapped(&asked.text, width).into_iter().map(|text| Line::styled(text, state.theme.bold())).collect();
+    if !about.is_empty() {
+        lines.extend(
+            wrapped(&format!("● {about}"), width).into_iter().map(|text| Line::styled(text, state.theme.dim())),
+        );
+    }
     lines.push(Line::raw(""));
     for (k, choice) in asked.choices.iter().enumerate().take(9) {
         let mark = if asked.stands == Some(k) { "●" } else { " " };

@@ -131,12 +131,15 @@ impl StylesScreen {
         }
         let Some(style) = self.size_row(state).map(|row| row.style.clone()) else { return vec![] };
         let replaced = self.laid_out(state).map_or(0, |layout| {
-            layout.out.desk.seams.iter().filter(|seam| seam.confidence.is_none()).count() + layout.out.lengths.len()
+            let made = layout.out.desk.seams.iter().filter(|seam| seam.confidence.is_none()).count();
+            made + layout.out.lengths.len() + layout.out.answered
         });
         let effects = self.step_of_work(state, SeamStep::Propose(style.clone()));
         if replaced > 0 {
             self.is_busy = false;
-            let text = format!("Propose all seams of {style} anew? Its seams and measurements go; u brings them back.");
+            let text = format!(
+                "Propose all seams of {style} anew? Its answers, seams and measurements go; u brings them back."
+            );
             state.ask(text, effects);
             return vec![];
         }

@@ -7,6 +7,12 @@ use crate::messages::seams::{LayoutRequest, PreviewRequest, Previewed, SizeLayou
 use store::files::SourceFile;
 use wardrobe::seams::SeamStep;
 
+/// Letter of a seam, in table and drawing.
+pub fn letter(seam: usize) -> char {
+    let small = || ('a'..='z').nth(seam.saturating_sub(26));
+    ('A'..='Z').nth(seam).or_else(small).unwrap_or('+')
+}
+
 /// An edge: index of the piece, and index of the edge on it.
 pub type EdgeAt = (usize, usize);
 
@@ -83,6 +89,16 @@ pub struct Preview {
     pub is_chosen: bool,
 }
 
+/// Most names in a sentence.
+const NAMED: usize = 6;
+
+/// The first of some names, and the number of the others.
+fn named_first(names: &[String]) -> String {
+    let (named, others) = names.split_at(names.len().min(NAMED));
+    let more = if others.is_empty() { String::new() } else { format!(" and {} more", others.len()) };
+    named.join(", ") + &more
+}
+
 /// A line of the table beside the pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableLine {
@@ -108,6 +124,49 @@ impl SizeLayout {
     #[must_use]
     pub fn seam_at(&self, edge: EdgeAt) -> Option<usize> {
         self.out.desk.seams.iter().position(|seam| seam.a.contains(&edge) || seam.b.contains(&edge))
+    }
+
+    /// Label of an edge in the picture: its number, and the letter of its seam.
+    #[must_use]
+    pub fn label(&self, edge: EdgeAt) -> String {
+        let seam = self.seam_at(edge).map_or(String::new(), |seam| letter(seam).to_string());
+        format!("{}{seam}", self.out.desk.edge(edge).number)
+    }
+
+    /// Edges as the picture labels them, with their lengths; a piece all of whose edges are meant by its name.
+    #[must_use]
+    pub fn named(&self, edges: &[EdgeAt]) -> String {
+        let pieces = self.out.desk.pieces.iter().enumerate();
+        let of_piece = pieces.filter_map(|(piece, drawn)| {
+            let own: Vec<EdgeAt> = edges.iter().copied().filter(|edge| edge.0 == piece).collect();
+            let label =
+                |edge: &EdgeAt| format!("{} ({:.0} mm)", self.label(*edge), self.out.desk.edge(*edge).length_mm);
+            match own.len() {
+                0 => None,
+                all if all == drawn.edges.len() => Some(drawn.id.clone()),
+                _ => Some(format!("{} {}", drawn.id, own.iter().map(label).collect::<Vec<_>>().join(" "))),
+            }
+        });
+        of_piece.collect::<Vec<_>>().join(", ")
+    }
+
+    /// Sentences on what stays unsewn: edges in no seam, pieces without any seam, pieces that are left out.
+    #[must_use]
+    pub fn left_open(&self) -> String {
+        let desk = &self.out.desk;
+        let loose = desk.pieces.iter().filter(|piece| piece.edges.iter().all(|edge| edge.seam.is_none()));
+        let loose: Vec<String> = loose.map(|piece| piece.id.clone()).collect();
+        let sentences = [
+            ("In no seam", "edge", desk.open_edges()),
+            ("Sewn to nothing", "piece", loose),
+            ("Left out", "piece", desk.left_out.clone()),
+        ];
+        let told = sentences.into_iter().filter(|(.., names)| !names.is_empty());
+        let told = told.map(|(what, unit, names)| {
+            let s = if names.len() == 1 { "" } else { "s" };
+            format!("{what}: {} {unit}{s}, {}.", names.len(), named_first(&names))
+        });
+        told.collect::<Vec<_>>().join(" ")
     }
 
     /// All edges, piece by piece.

@@ -65,9 +65,8 @@ impl SubjectsScreen {
     pub fn remove(&self, state: &mut State) {
         if catalogue::may_change(state, Part::Subject) {
             let selected = self.selected(state).map(|row| row.name.clone());
-            let marked: Vec<String> = self.marks.iter().cloned().collect();
-            let names = if marked.is_empty() { selected.into_iter().collect() } else { marked };
-            catalogue::remove(state, Part::Subject, names);
+            let shown: Vec<String> = self.shown(state).iter().map(|row| row.name.clone()).collect();
+            catalogue::remove_marked(state, Part::Subject, &self.marks, &shown, selected);
         }
     }
 
