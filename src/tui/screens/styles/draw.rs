@@ -13,7 +13,7 @@ use crate::screens::picture_pane::actions::requests;
 use crate::screens::state::State;
 use crate::screens::styles::actions::{outfit_lines, outfit_marks, revisions};
 use crate::screens::styles::pieces;
-use crate::screens::styles::state::{EdgeAt, StylesScreen, TableLine, letter};
+use crate::screens::styles::state::{EdgeAt, StylesScreen, TableLine, letter, short_name};
 use crate::widgets::jump::{self, Goal, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, listed, no_rows, pane, selected_line};
@@ -381,10 +381,7 @@ fn whole_or_tenth(ease: f64) -> String {
 
 /// Edges on one side of a seam, by number: `front.3`, `sleeve.2+3`. `letters` is the number of letters of each word.
 fn chain(desk: &Desk, edges: &[EdgeAt], letters: usize) -> String {
-    let short = |id: &str| {
-        let words = id.split('_').map(|word| word.chars().take(letters).collect::<String>());
-        words.collect::<Vec<_>>().join("_")
-    };
+    let short = |id: &str| short_name(id, letters);
     let mut text = String::new();
     let mut before = None;
     for (piece, edge) in edges {

@@ -44,13 +44,25 @@ impl EdgeDots {
 
     /// True if a label at these cells of the view stands nearer to an edge than to any other.
     pub fn is_beside(&self, edge: EdgeAt, cells: Rect, view: &View) -> bool {
+        self.is_nearest(|other| other == edge, cells, view)
+    }
+
+    /// True if a label at these cells of the view stands nearer to a piece than to any other, and covers no edge.
+    pub fn is_of(&self, piece: usize, cells: Rect, view: &View) -> bool {
+        let is_clear = self.is_nearest(|_| false, cells, view);
+        is_clear && self.is_nearest(|(other, _)| other == piece, cells, view)
+    }
+
+    /// True if a label at these cells of the view stands nearer to its own edges than to others; without own edges, if it
+    /// covers none.
+    fn is_nearest(&self, is_own: impl Fn(EdgeAt) -> bool, cells: Rect, view: &View) -> bool {
         let [x, y] = [cells.x - view.area.x, cells.y - view.area.y].map(f64::from);
         let [left, top] = [2.0 * x, 4.0 * y];
         let label = [left, top, left + 2.0 * f64::from(cells.width), top + 4.0];
-        let Some(own) = self.edges.iter().find(|other| other.at == edge) else { return false };
-        let own = own.distance(label);
-        let others = self.edges.iter().filter(|other| other.at != edge && apart(label, other.bounds) <= own);
-        others.into_iter().all(|other| other.distance(label) > own)
+        let (own, others): (Vec<&Dotted>, Vec<&Dotted>) = self.edges.iter().partition(|edge| is_own(edge.at));
+        let own = own.iter().map(|edge| edge.distance(label)).reduce(f64::min).unwrap_or(0.0);
+        let mut near = others.into_iter().filter(|edge| apart(label, edge.bounds) <= own);
+        near.all(|edge| edge.distance(label) > own)
     }
 }
 
@@ -133,6 +145,21 @@ mod tests {
         // Between two strips, nearer to the second.
         check((0, 1), [45, 8, 1], false);
         check((1, 3), [45, 8, 1], true);
+    }
+
+    #[test]
+    fn names_of_pieces_cover_no_edge_and_stand_at_no_other_piece() {
+        let pieces = strips(&[200.0, 30.0, 8.0]);
+        let view = View { area: Rect::new(0, 0, 60, 20), corner: [-20.0, 140.0], scale: 2.5 };
+        let dots = EdgeDots::of(&pieces, &view);
+        let check = |piece: usize, cells: [u16; 3], expect: bool| {
+            let [x, y, width] = cells;
+            assert_eq!(dots.is_of(piece, Rect::new(x, y, width, 1), &view), expect, "{piece} {cells:?}");
+        };
+        check(0, [10, 8, 8], true);
+        check(0, [1, 8, 8], false);
+        check(1, [10, 8, 8], false);
+        check(1, [47, 8, 3], true);
     }
 
     #[test]

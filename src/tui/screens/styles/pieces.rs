@@ -11,7 +11,7 @@ use ratatui::widgets::canvas::{Canvas, Line as Stroke};
 use crate::messages::seams::SizeLayout;
 use crate::screens::state::State;
 use crate::screens::styles::labels::{EdgeDots, places};
-use crate::screens::styles::state::{EdgeAt, StylesScreen};
+use crate::screens::styles::state::{EdgeAt, StylesScreen, short_name};
 use crate::screens::styles::view::{View, walked};
 use crate::widgets::jump::{self, Goal, Target};
 use crate::widgets::lists::pane;
@@ -160,16 +160,24 @@ impl Drawing<'_> {
             let is_beside = |cells| dots.is_beside(at, cells, &self.view);
             self.put(frame, &mut taken, (&label, style), &places(edge, &self.view), is_beside);
         }
-        for piece in &self.layout.out.desk.pieces {
+        for (k, piece) in self.layout.out.desk.pieces.iter().enumerate() {
             let places = [0.0, 7.0, -7.0, 14.0, -14.0].map(|dots| {
                 let [x, y] = centre(piece);
                 [x, y + dots * self.view.scale]
             });
-            self.put(frame, &mut taken, (&piece.id, self.state.theme.dim()), &places, |_| true);
+            // Long names of small pieces are shortened as in the table.
+            let names = [piece.id.clone(), short_name(&piece.id, 3), short_name(&piece.id, 1)];
+            for name in &names {
+                let is_of = |cells| dots.is_of(k, cells, &self.view);
+                if self.put(frame, &mut taken, (name, self.state.theme.dim()), &places, is_of) {
+                    break;
+                }
+            }
         }
     }
 
-    /// Writes a label at the first of `places` that suits it, and where it touches no other label.
+    /// Writes a label at the first of `places` that suits it, and where it touches no other label. Returns false where
+    /// none does.
     fn put(
         &self,
         frame: &mut Frame<'_>,
@@ -177,7 +185,7 @@ impl Drawing<'_> {
         (label, style): (&str, Style),
         places: &[[f64; 2]],
         suits: impl Fn(Rect) -> bool,
-    ) {
+    ) -> bool {
         let columns = width(label) as u16;
         for cell in places.iter().filter_map(|place| self.view.cell(*place)) {
             let last = self.view.area.right().saturating_sub(columns).max(self.view.area.x);
@@ -187,9 +195,10 @@ impl Drawing<'_> {
             if room.width == columns && !taken.iter().any(|other| other.intersects(apart)) && suits(room) {
                 frame.buffer_mut().set_string(x, cell.y, label, Style::reset().patch(style));
                 taken.push(room);
-                return;
+                return true;
             }
         }
+        false
     }
 }
 

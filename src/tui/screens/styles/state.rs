@@ -13,6 +13,12 @@ pub fn letter(seam: usize) -> char {
     ('A'..='Z').nth(seam).or_else(small).unwrap_or('+')
 }
 
+/// Identifier of a piece with some letters of each of its words: `sle_lef`.
+pub fn short_name(id: &str, letters: usize) -> String {
+    let words = id.split('_').map(|word| word.chars().take(letters).collect::<String>());
+    words.collect::<Vec<_>>().join("_")
+}
+
 /// An edge: index of the piece, and index of the edge on it.
 pub type EdgeAt = (usize, usize);
 
