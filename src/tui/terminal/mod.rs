@@ -20,14 +20,19 @@ use crate::terminal::framed::{FramedBackend, Late};
 
 /// Least time between two frames. Fast keys share a frame, and a slow line does not get more than it can take.
 const PAUSE: Duration = Duration::from_millis(20);
-/// Time without a key after which pictures are sent, longer than the time between repeats of a held key.
+/// Time without a key after which pictures are sent while keys follow each other, longer than the time between repeats of
+/// a held key.
 const REST: Duration = Duration::from_millis(80);
+/// Greatest time between keys that follow each other. The picture of a single key is sent at once.
+const FOLLOWING: Duration = Duration::from_millis(160);
 
 /// The terminal while the workbench has it. Dropping this gives it back.
 pub struct Display {
     terminal: Terminal<FramedBackend<Stdout>>,
     /// Time of the latest key.
     last_key: Option<Instant>,
+    /// Time after that key for which pictures wait.
+    rest: Duration,
     /// Time of the latest frame.
     last_frame: Option<Instant>,
     /// True if the state has changed since the last drawing.
@@ -60,7 +65,9 @@ impl Display {
         let entered = execute!(io::stdout(), terminal::EnterAlternateScreen, cursor::Hide)
             .and_then(|()| Terminal::new(FramedBackend::new(io::stdout(), None)?));
         match entered {
-            Ok(terminal) => Ok(Self { terminal, last_key: None, last_frame: None, is_stale: false }),
+            Ok(terminal) => {
+                Ok(Self { terminal, last_key: None, rest: Duration::ZERO, last_frame: None, is_stale: false })
+            }
             Err(error) => {
                 restore();
                 Err(error)
@@ -121,11 +128,13 @@ impl Display {
 
     /// Time until no key was pressed for long enough.
     fn rest_left(&self) -> Duration {
-        self.last_key.map_or(Duration::ZERO, |key| REST.saturating_sub(key.elapsed()))
+        self.last_key.map_or(Duration::ZERO, |key| self.rest.saturating_sub(key.elapsed()))
     }
 
     /// Notes that a key was pressed.
     pub fn key_pressed(&mut self) {
+        let follows = self.last_key.is_some_and(|last| last.elapsed() < FOLLOWING);
+        self.rest = if follows { REST } else { Duration::ZERO };
         self.last_key = Some(Instant::now());
     }
 
