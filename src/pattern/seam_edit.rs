@@ -99,6 +99,8 @@ pub fn edited(text: &str, file: &str, sizes: &Sizes<'_>, edit: &Edit) -> Result<
             let index = editor.between(a, b)?;
             let is_same = !editor.entries.seam[index].same_direction;
             if let Some(seam) = editor.seams()?.get_mut(index) {
+                // Whoever turns a seam has looked at it: the doubt of the proposal goes.
+                seam.decor_mut().set_suffix("");
                 if is_same {
                     seam["same_direction"] = value(true);
                 } else {

@@ -200,10 +200,10 @@ pub struct JobRow {
 /// leave 0 to 1 mm (docs/hybrid.md): more than this is cloth that could not lie there.
 pub const INSIDE_M: f64 = 5e-3;
 
-/// Depth of a drape inside the body in words, `≈ 37 mm inside`; `None` up to [`INSIDE_M`].
+/// Depth of a drape inside the body in words, `37 mm inside`; `None` up to [`INSIDE_M`].
 #[must_use]
 pub fn inside_words(penetration_max_m: f64) -> Option<String> {
-    (penetration_max_m > INSIDE_M).then(|| format!("≈ {:.0} mm inside", mm(penetration_max_m)))
+    (penetration_max_m > INSIDE_M).then(|| format!("{:.0} mm inside", mm(penetration_max_m)))
 }
 
 impl JobRow {

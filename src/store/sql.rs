@@ -1,7 +1,7 @@
 //! Queries in SQL, on a connection that cannot write.
 
 use std::fs::{self, File};
-use std::io::{BufWriter, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -114,7 +114,7 @@ pub fn export_query(
     so_far: &mut dyn FnMut(usize),
 ) -> Result<usize> {
     let is_json = kind_of(path, &[("csv", false), ("json", true)]).origin(Origin::Sql)?;
-    let file = File::create_new(path).map_err(StudyError::io(path))?;
+    let file = new_file(path)?;
     let mut out = BufWriter::new(file);
     let (mut rows, mut names) = (0, Vec::new());
     let written = each_row(store, text, stop, |columns, row| {
@@ -144,6 +144,17 @@ pub fn export_query(
         let _ = fs::remove_file(path);
     }
     written.map(|()| rows)
+}
+
+/// Creates a file for rows.
+///
+/// # Errors
+/// [`StudyError::Exists`] when there is one of that name; when it cannot be created.
+pub fn new_file(path: &Path) -> Result<File> {
+    File::create_new(path).map_err(|error| match error.kind() {
+        io::ErrorKind::AlreadyExists => StudyError::Exists { what: "file", name: path.display().to_string() },
+        _ => StudyError::io(path)(error),
+    })
 }
 
 /// Calls `take` for the last statement of a text: with its columns and no row, then with each row, until it returns

@@ -48,17 +48,28 @@ pub fn sewn(
     let fitting = bands.filter(|collar| FITS.contains(&share(collar)));
     let best = fitting.min_by(|a, b| share(a).ln().abs().total_cmp(&share(b).ln().abs()));
     let Some(collar) = best else { return recognised };
-    let text = format!(
-        "`{}`{}, {:.0} mm for a neckline of {:.0} mm: is it sewn on?",
-        reference(pieces, collar.piece),
-        if is_half(&collar) { " and its mirror image" } else { "" },
-        mm(around_m(&collar)),
-        mm(neck_m)
-    );
-    match asker.ask(text, ["no: it is left out", "yes, standing up as it is cut"], Some(0)) {
+    // Lengths stand in a choice: the question is the same in every size.
+    let name = reference(pieces, collar.piece);
+    let (text, of_half) = match is_half(&collar) {
+        true => (format!("`{name}` and its mirror image are about as long as the neckline: are they sewn on?"), true),
+        false => (format!("`{name}` is about as long as the neckline: is it sewn on?"), false),
+    };
+    let no = format!("no: it is left out, {:.0} mm at a neckline of {:.0} mm", mm(around_m(&collar)), mm(neck_m));
+    let yes = "yes, standing up as it is cut".to_owned();
+    let ring = (!of_half).then(|| "yes, as a ring: its ends are sewn to each other".to_owned());
+    match asker.ask(text, [no, yes].into_iter().chain(ring), Some(0)) {
         Some(1) => opened.into_iter().chain([collar]).collect(),
+        Some(2) => opened.into_iter().chain([closed(collar)]).collect(),
         _ => recognised,
     }
+}
+
+/// A band whose ends are sewn to each other.
+fn closed(mut band: Recognised) -> Recognised {
+    for part in band.alignment.parts.iter_mut().filter(|part| part.label == Label::End) {
+        part.label = Label::Side;
+    }
+    band
 }
 
 /// A piece as a band whose lower edge is the one that is nearer to the length of the neckline. `None` for another shape.
@@ -204,6 +215,10 @@ impl<'w> Tailor<'w, '_, '_> {
         if let (Some(left), Some(right)) = (left, right) {
             let (a, b) = (left.chain(Label::Centre, None), right.chain_back(Label::Centre, None));
             self.add(SeamKind::CollarBack, a, b, &[left, right], PLAIN_DOUBT);
+        }
+        if let Some(ring) = whole.filter(|whole| whole.has(Label::Side)) {
+            let (a, b) = (ring.chain(Label::Side, Some(Hand::Left)), ring.chain_back(Label::Side, Some(Hand::Right)));
+            self.add(SeamKind::CollarEnds, a, b, &[ring], PLAIN_DOUBT);
         }
         let neckline = self.neckline();
         let pieces: Vec<&Worn> = neckline.iter().map(|along| along.piece).chain(collar.iter().copied()).collect();

@@ -166,7 +166,7 @@ fn a_collar_is_sewn_to_the_neckline_where_the_user_says_so() {
         let pieces = [&tee[..], &[collar]].concat();
         let found = propose(&pieces);
         assert_eq!(found.seams, plain.seams, "left out unless the user says otherwise");
-        let question = found.questions.iter().find(|question| question.text.contains("is it sewn on?"));
+        let question = found.questions.iter().find(|question| question.text.contains("sewn on?"));
         assert_eq!(question.is_some(), is_asked, "{:?}", found.questions);
         let question = question?;
         let sewn = propose_answered(&pieces, &[(question.number, 'b')]).expect("an answer");
@@ -177,6 +177,13 @@ fn a_collar_is_sewn_to_the_neckline_where_the_user_says_so() {
         let style = Style::of(&pieces, &sewn.to_drape().expect("sure").seam_file("a"), "a").expect("a style");
         let mesh = style.mesh(30e-3).expect("a mesh");
         assert!(mesh.pieces.iter().any(|piece| piece.id.starts_with("collar")));
+        if question.choices.len() > 2 {
+            let ring = propose_answered(&pieces, &[(question.number, 'c')]).expect("an answer");
+            let ends = ring.seams.iter().find(|seam| seam.entry.name == "collar_ends").expect("a seam");
+            assert!((ends.ratio() - 1.0).abs() < 1e-9 && ring.seams.len() == sewn.seams.len() + 1);
+            let style = Style::of(&pieces, &ring.to_drape().expect("sure").seam_file("a"), "a").expect("a style");
+            style.mesh(30e-3).expect("a mesh");
+        }
         Some(sewn)
     };
     check(strip("COLLAR", neck_mm, 60.0), true);

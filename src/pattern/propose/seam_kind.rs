@@ -51,6 +51,8 @@ pub enum SeamKind {
     Collar,
     /// Left to right half of a collar.
     CollarBack,
+    /// A band round the neck to itself.
+    CollarEnds,
     /// Front to back of a leg, outside.
     Outseam(Hand),
     /// Front to back of a leg, inside.
@@ -116,6 +118,7 @@ impl fmt::Display for SeamKind {
             Self::CuffSide(hand, Hand::Left) => write!(f, "cuff_{hand}_b"),
             Self::Collar => f.write_str("collar"),
             Self::CollarBack => f.write_str("collar_back"),
+            Self::CollarEnds => f.write_str("collar_ends"),
             Self::Outseam(hand) => write!(f, "outseam_{hand}"),
             Self::Inseam(hand) => write!(f, "inseam_{hand}"),
             Self::Crotch(face) => write!(f, "crotch_{face}"),
@@ -164,6 +167,7 @@ mod tests {
             (SeamKind::CuffSide(Left, Left), "cuff_left_b"),
             (SeamKind::Collar, "collar"),
             (SeamKind::CollarBack, "collar_back"),
+            (SeamKind::CollarEnds, "collar_ends"),
             (SeamKind::Outseam(Right), "outseam_right"),
             (SeamKind::Inseam(Left), "inseam_left"),
             (SeamKind::Crotch(Front), "crotch_front"),

@@ -123,14 +123,14 @@ impl<'w> Tailor<'w, '_, '_> {
             Evidence::None => {}
         }
         if confidence < LEAST_CONFIDENCE {
+            // Lengths stand in the choices: the question is the same in every size.
             let text = format!(
-                "{}: sides of {:.0} and {:.0} mm look as if they do not belong together; what is sewn there?",
-                kind.on_either_side(),
-                a_mm.min(b_mm),
-                a_mm.max(b_mm)
+                "{}: its sides look as if they do not belong together; what is sewn there?",
+                kind.on_either_side()
             );
+            let nothing = format!("nothing: they are {:.0} and {:.0} mm long", a_mm.min(b_mm), a_mm.max(b_mm));
             let eased = format!("one to the other, {:.0} mm eased in", (a_mm - b_mm).abs());
-            if self.asker.ask_at(about(), text, ["nothing".to_owned(), eased], Some(0)) != Some(1) {
+            if self.asker.ask_at(about(), text, [nothing, eased], Some(0)) != Some(1) {
                 return;
             }
             confidence = ANSWERED;

@@ -382,7 +382,7 @@ fn asked(width: u16, edges: &[EdgeAt]) -> Bench {
     bench.press("3<Enter>");
     let mut layout = bench.layout().clone();
     let choices = vec![Choice { label: "nothing".into(), step: SeamStep::ConfirmSure, edges: vec![] }];
-    let text = "underarm: sides of 86 and 322 mm look as if they do not belong together; what is sewn there?".into();
+    let text = "underarm: its sides look as if they do not belong together; what is sewn there?".into();
     layout.out.desk.left_out = vec!["POCKET".into(), "LOOP".into()];
     layout.out.undecided =
         vec![Undecided { text, edges: edges.to_vec(), choices, stands: Some(0), seam: None, is_sure: false }];

@@ -1,6 +1,5 @@
 //! The thread that answers SQL queries, on a connection of its own, so that screens are updated during a long query.
 
-use std::fs::File;
 use std::io::Write;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -121,7 +120,7 @@ fn export(
     };
     let table = sql::answer(store, text, usize::MAX, &canceller.is_on, so_far)?.table;
     let bytes = encode(&table).map_err(StudyError::io(path))?;
-    let mut file = File::create_new(path).map_err(StudyError::io(path))?;
+    let mut file = sql::new_file(path)?;
     file.write_all(&bytes).map_err(StudyError::io(path))?;
     Ok(table.rows.len())
 }

@@ -97,7 +97,7 @@ pub fn numbers(state: &State, columns: usize) -> Vec<Line<'static>> {
     let style = state.theme.result(job.status, inside.is_some());
     let sign = sign(job.status, inside.is_some());
     let inside = inside.map_or(String::new(), |words| format!(", {words}"));
-    let status = format!("{sign} {}{inside}{share}{wall}", text::status(job.status));
+    let status = format!("{sign} {}{share}{wall}{inside}", text::status(job.status));
     let mut lines = vec![Line::styled(text::shortened(&status, columns), style)];
     if let Some(ease) = state.data.as_ref().and_then(|data| data.ease_of(job)) {
         lines.push(fact(
