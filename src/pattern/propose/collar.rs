@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 use super::align::{Alignment, LEAST_FIT, Labelled, upright};
 use super::ask::Asker;
 use super::recognised::{Recognised, length_m};
-use super::sew::{Chain, EASED_DOUBT, PLAIN_DOUBT, Tailor};
+use super::sew::{ANSWERED, Chain, EASED_DOUBT, PLAIN_DOUBT, Tailor};
 use super::shape::Shape;
 use super::worn_pieces::{self, Worn};
 use super::{Class, Face, Hand, Label, PartName, SeamKind};
@@ -57,9 +57,11 @@ pub fn sewn(
     let no = format!("no: it is left out, {:.0} mm at a neckline of {:.0} mm", mm(around_m(&collar)), mm(neck_m));
     let yes = "yes, standing up as it is cut".to_owned();
     let ring = (!of_half).then(|| "yes, as a ring: its ends are sewn to each other".to_owned());
+    // Whoever has it sewn on is surer than the outline of a band.
+    let confirmed = Recognised { confidence: ANSWERED, ..collar };
     match asker.ask(text, [no, yes].into_iter().chain(ring), Some(0)) {
-        Some(1) => opened.into_iter().chain([collar]).collect(),
-        Some(2) => opened.into_iter().chain([closed(collar)]).collect(),
+        Some(1) => opened.into_iter().chain([confirmed]).collect(),
+        Some(2) => opened.into_iter().chain([closed(confirmed)]).collect(),
         _ => recognised,
     }
 }

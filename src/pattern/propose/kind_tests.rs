@@ -187,6 +187,8 @@ fn a_collar_is_sewn_to_the_neckline_where_the_user_says_so() {
         Some(sewn)
     };
     check(strip("COLLAR", neck_mm, 60.0), true);
+    // A neckband that is stretched by a tenth is draped once it is confirmed.
+    check(strip("NECK BAND", 0.91 * neck_mm, 30.0), true);
     // Half a stand, whose front end slants, drawn for either side of the wearer.
     let half = 0.5 * neck_mm;
     let drawn = [(0.0, 0.0, 1), (half, 10.0, 1), (half - 12.0, 45.0, 1), (0.0, 40.0, 1)];

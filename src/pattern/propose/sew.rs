@@ -21,8 +21,8 @@ pub(super) const CENTRE_CONFIDENCE: f64 = 0.7;
 /// Least confidence of a proposed seam. Less likely seams become questions.
 const LEAST_CONFIDENCE: f64 = 0.25;
 
-/// Confidence in a seam that the user has confirmed.
-const ANSWERED: f64 = 0.9;
+/// Confidence in what the user has confirmed.
+pub(super) const ANSWERED: f64 = 0.9;
 /// Share of the remaining doubt that matching notches remove.
 const NOTCHED_GAIN: f64 = 0.4;
 /// Factor on the confidence in a seam whose notches match better reversed.
