@@ -35,6 +35,18 @@ fn drafted(model: Model, size: usize) -> Style {
     Style::read(&draft.pieces, model.seams(), "seams").expect("our own draft")
 }
 
+/// Piece with a corner at each of some points, m.
+fn piece(block: &str, outline: &[[f64; 2]]) -> crate::Piece {
+    let points: Vec<V2> = outline.iter().map(|[u, v]| V2::new(*u, *v)).collect();
+    crate::Piece {
+        block: block.to_owned(),
+        name: block.to_owned(),
+        outline: points.clone(),
+        turn_points: points,
+        ..crate::Piece::default()
+    }
+}
+
 /// Width of the cloth of an outline at a height.
 fn width_mm(outline: &[V2], v: f64) -> f64 {
     let sides = outline.iter().zip(outline.iter().cycle().skip(1));
@@ -154,13 +166,6 @@ fn a_girth_taken_through_a_dart_leaves_the_dart_out() {
             { name = "dart", a = ["front.da"], b = ["front.db"] },
         ]
     "#;
-    let piece = |block: &str, outline: &[[f64; 2]]| crate::Piece {
-        block: block.to_owned(),
-        name: block.to_owned(),
-        outline: outline.iter().map(|[u, v]| V2::new(*u, *v)).collect(),
-        turn_points: outline.iter().map(|[u, v]| V2::new(*u, *v)).collect(),
-        ..crate::Piece::default()
-    };
     let front = [[-0.25, 0.0], [-0.02, 0.0], [0.0, 0.3], [0.02, 0.0], [0.25, 0.0], [0.25, 0.4], [-0.25, 0.4]];
     let back = [[-0.2, 0.0], [0.2, 0.0], [0.2, 0.4], [-0.2, 0.4]];
     let style = Style::read(&[piece("F", &front), piece("B", &back)], seams.as_bytes(), "tube").expect("it is sewn");
@@ -197,13 +202,6 @@ fn the_centre_of_halves_goes_on_over_a_whole_skirt_with_a_round_waist() {
             { name = "wr", a = ["front_right.waist"], b = ["skirt_front.waist_left"] },
         ]
     "#;
-    let piece = |block: &str, outline: &[[f64; 2]]| crate::Piece {
-        block: block.to_owned(),
-        name: block.to_owned(),
-        outline: outline.iter().map(|[u, v]| V2::new(*u, *v)).collect(),
-        turn_points: outline.iter().map(|[u, v]| V2::new(*u, *v)).collect(),
-        ..crate::Piece::default()
-    };
     let half = [[0.0, 0.0], [0.2, 0.0], [0.22, 0.2], [0.18, 0.38], [0.08, 0.42], [0.0, 0.34]];
     // The waist falls steeply to its middle, as that of a circle skirt does.
     let (up, out) = (0.2 * 0.8, 0.2 * 0.6);
@@ -222,13 +220,6 @@ fn a_skirt_of_one_piece_has_a_waist_and_a_hem() {
             { name = "waist", a = ["waistband.lower"], b = ["skirt.waist"], ease_mm = 20.0 },
         ]"#;
     let alone = r#"seam = [{ name = "side", a = ["skirt.side_right"], b = ["skirt.side_left"] }]"#;
-    let piece = |block: &str, outline: &[[f64; 2]]| crate::Piece {
-        block: block.to_owned(),
-        name: block.to_owned(),
-        outline: outline.iter().map(|[u, v]| V2::new(*u, *v)).collect(),
-        turn_points: outline.iter().map(|[u, v]| V2::new(*u, *v)).collect(),
-        ..crate::Piece::default()
-    };
     let skirt = piece("S", &[[-0.6, 0.0], [0.6, 0.0], [0.35, 0.5], [-0.35, 0.5]]);
     let pieces = [skirt, piece("B", &[[0.0, 0.0], [0.72, 0.0], [0.72, 0.04], [0.0, 0.04]])];
     let top = r#"

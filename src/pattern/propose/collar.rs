@@ -50,13 +50,13 @@ pub fn sewn(
     let Some(collar) = best else { return recognised };
     // Lengths stand in a choice: the question is the same in every size.
     let name = reference(pieces, collar.piece);
-    let (text, of_half) = match is_half(&collar) {
-        true => (format!("`{name}` and its mirror image are about as long as the neckline: are they sewn on?"), true),
-        false => (format!("`{name}` is about as long as the neckline: is it sewn on?"), false),
+    let text = match is_half(&collar) {
+        true => format!("`{name}` and its mirror image are about as long as the neckline: are they sewn on?"),
+        false => format!("`{name}` is about as long as the neckline: is it sewn on?"),
     };
     let no = format!("no: it is left out, {:.0} mm at a neckline of {:.0} mm", mm(around_m(&collar)), mm(neck_m));
     let yes = "yes, standing up as it is cut".to_owned();
-    let ring = (!of_half).then(|| "yes, as a ring: its ends are sewn to each other".to_owned());
+    let ring = (!is_half(&collar)).then(|| "yes, as a ring: its ends are sewn to each other".to_owned());
     // Whoever has it sewn on is surer than the outline of a band.
     let confirmed = Recognised { confidence: ANSWERED, ..collar };
     match asker.ask(text, [no, yes].into_iter().chain(ring), Some(0)) {

@@ -67,9 +67,10 @@ impl fmt::Display for Shrinkage {
 }
 
 impl Style {
-    /// Shrinks every piece.
+    /// Shrinks every piece from as it was cut.
     pub(super) fn shrink(&mut self, shrinkage: Shrinkage) {
-        if !shrinkage.is_none() {
+        if shrinkage != self.shrinkage {
+            *self = self.as_cut();
             self.pieces.iter_mut().for_each(|piece| piece.map(|p, grain| shrinkage.worn(p, grain)));
             self.shrinkage = shrinkage;
         }
