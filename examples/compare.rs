@@ -1,6 +1,6 @@
 //! Three sizes of a T-shirt on one man by both simulators: how they fit, and whose drape to trust.
 //!
-//! `cargo run --release --example compare` prints one line a size.
+//! `cargo run --release -p examples --bin compare` prints one line a size.
 
 #![allow(clippy::print_stdout, reason = "an example speaks to whoever runs it")]
 

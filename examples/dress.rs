@@ -1,6 +1,6 @@
 //! A T-shirt on a man, from his measurements to a file that Blender opens.
 //!
-//! `cargo run --release --example dress [FILE.glb]` prints chi of every measurement and writes body and garment to the file.
+//! `cargo run --release -p examples --bin dress [FILE.glb]` prints chi of every measurement and writes body and garment to the file.
 
 #![allow(clippy::print_stdout, reason = "an example speaks to whoever runs it")]
 

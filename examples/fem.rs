@@ -1,6 +1,6 @@
 //! FEM-GS on whole garments: tables of docs/experiments/whole-garments.md.
 //!
-//! `cargo run --release --example fem truth` prints what is left of the error of a loose T-shirt by mesh, fabric and rib;
+//! `cargo run --release -p examples --bin fem truth` prints what is left of the error of a loose T-shirt by mesh, fabric and rib;
 //! `... fem growth [MM ...]` the cost of a T-shirt by the edge length of its mesh;
 //! `... fem others PATTERNS BODIES [WORD ...]` other makers' patterns on scanned bodies, one line a pair whose name contains one of the words.
 

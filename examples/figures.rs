@@ -1,6 +1,6 @@
 //! Figures planted into bodies, and what `alter` proposes for them beside what books on pattern alteration say (docs/alter.md).
 //!
-//! `cargo run --release --example figures [--drape] [PATTERN SEAMS SIZE male|female]` prints a row for each figure: on the
+//! `cargo run --release -p examples --bin figures [--drape] [PATTERN SEAMS SIZE male|female]` prints a row for each figure: on the
 //! drafted T-shirt, trousers and dress, or on the pattern of a file.
 
 #![allow(clippy::print_stdout, reason = "an example speaks to whoever runs it")]

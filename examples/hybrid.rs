@@ -1,8 +1,8 @@
 //! Hybrid-GS on the thesis's 54 pairs of subject and garment: the tables of docs/hybrid.md.
 //!
-//! `cargo run --release --example hybrid [pairs | pyramid | left-out | short] [WORD ...]` prints one of them, for the pairs whose line
+//! `cargo run --release -p examples --bin hybrid [pairs | pyramid | left-out | short] [WORD ...]` prints one of them, for the pairs whose line
 //! (such as `tshirt S male-i`) contains one of the words. Bodies are built from `db/subjects.csv`, patterns are drafted.
-//! `... --example hybrid times` sets the times of the phases beside those of the thesis, and `paths` the fast path search beside
+//! `... --bin hybrid times` sets the times of the phases beside those of the thesis, and `paths` the fast path search beside
 //! the full one.
 
 #![allow(clippy::print_stdout, reason = "an example speaks to whoever runs it")]

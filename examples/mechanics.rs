@@ -1,6 +1,6 @@
 //! The experiments of `docs/mechanics.md`: prints its tables and, given a folder, draws its pictures there.
 //!
-//! `cargo run --release --example mechanics docs`
+//! `cargo run --release -p examples --bin mechanics docs`
 
 #![allow(clippy::print_stdout, reason = "an example speaks to whoever runs it")]
 

@@ -1,7 +1,7 @@
 //! Planted faults: sound drafted patterns are spoilt by a handle, and `alter` is asked to make them drape as the sound ones do
 //! (docs/alter.md).
 //!
-//! `cargo run --release --example planted [EDGE_MM] [WORD ...]` prints a line for each fault whose name contains one of the words.
+//! `cargo run --release -p examples --bin planted [EDGE_MM] [WORD ...]` prints a line for each fault whose name contains one of the words.
 
 #![allow(clippy::print_stdout, reason = "an example speaks to whoever runs it")]
 

@@ -3,7 +3,7 @@
 //! By hand: the underarm point stays at the trunk, the cuff turns with the arm about the shoulder joint. What the straight
 //! way between them exceeds the underarm of the sleeve by is drawn from cuff and trunk.
 //!
-//! `cargo run --release --example reach [EDGE_MM]` prints both for the drafted T-shirt in three sizes and three poses.
+//! `cargo run --release -p examples --bin reach [EDGE_MM]` prints both for the drafted T-shirt in three sizes and three poses.
 
 #![allow(clippy::print_stdout, reason = "an example speaks to whoever runs it")]
 

@@ -1,6 +1,6 @@
 //! How drapes answer to the handles of their patterns: derivatives beside central differences (docs/alter.md).
 //!
-//! `cargo run --release --example response [EDGE_MM]` prints a line for each handle of the T-shirt, the trousers and the dress, loose and
+//! `cargo run --release -p examples --bin response [EDGE_MM]` prints a line for each handle of the T-shirt, the trousers and the dress, loose and
 //! tight: as friction holds the drape, and as it would slide.
 
 #![allow(clippy::print_stdout, reason = "an example speaks to whoever runs it")]

@@ -1,6 +1,6 @@
 //! A database of 10,000 jobs and 1,000,000 measurements, made through the real queue, and how long it takes to work with.
 //!
-//! `cargo run --release --example scale [STUDIES [SUBJECTS]]` prints the table of docs/studies.md: queue operations, and a
+//! `cargo run --release -p examples --bin scale [STUDIES [SUBJECTS]]` prints the table of docs/studies.md: queue operations, and a
 //! typical question to each view. One study of 1680 subjects has as many jobs as 20 of 84. `... scale queue [JOBS]` queues one study
 //! of as many jobs (10^6), works on a few of them, and prints what that takes.
 

@@ -1,7 +1,7 @@
 //! How far a drape's shape depends on its mesh and on its start: drapes on coarser meshes, from two starts each, against their own mesh of
 //! 3 mm. Prints a table of `docs/experiments/shape.md`.
 //!
-//! `cargo run --release --example shape tshirt|dress|trousers [FABRIC] [MM ...]`
+//! `cargo run --release -p examples --bin shape tshirt|dress|trousers [FABRIC] [MM ...]`
 
 #![allow(clippy::print_stdout, reason = "an example speaks to whoever runs it")]
 

@@ -129,8 +129,8 @@ pub fn draw_legend(picture: &mut RgbaImage, scale: &Scale) -> Result<(), RenderE
         };
         let _ = write!(
             svg,
-            "<path d=\"M{right} {y}h{}\" stroke=\"{INK}\"/><text x=\"{}\" y=\"{}\" font-size=\"{text}\" fill=\"{INK}\">{bound}{value:.decimals$}</text>",
-            text * 0.4,
+            "<line x1=\"{right}\" y1=\"{y}\" x2=\"{}\" y2=\"{y}\" stroke=\"{INK}\"/><text x=\"{}\" y=\"{}\" font-size=\"{text}\" fill=\"{INK}\">{bound}{value:.decimals$}</text>",
+            right + text * 0.4,
             right + text * 0.65,
             y + text * 0.36,
         );
