@@ -19,24 +19,18 @@ fn fonts() -> Arc<fontdb::Database> {
     FONTS.get_or_init(load).clone()
 }
 
-/// Letters of drawings that the embedded fonts lack.
 static LACKING: Mutex<BTreeSet<char>> = Mutex::new(BTreeSet::new());
 
 fn lock(letters: &Mutex<BTreeSet<char>>) -> MutexGuard<'_, BTreeSet<char>> {
     letters.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Letters that stand as empty boxes in what this process has rasterised, in the order of their code points: the embedded
-/// fonts have none of Chinese, Japanese and Korean.
-#[must_use]
+/// Letters that this process has rasterised as empty boxes, by code point: Chinese, Japanese and Korean have no font.
 pub fn lacking_letters() -> Vec<char> {
     lock(&LACKING).iter().copied().collect()
 }
 
 /// Rasterises an SVG drawing at `scale` pixels per unit, on a transparent ground.
-///
-/// # Errors
-/// [`RenderError::Svg`] where the text is no SVG, [`RenderError::Size`] where the drawing has no size or is too large.
 pub fn rasterise_svg(svg: &str, scale: f32) -> Result<RgbaImage, RenderError> {
     let fallback = usvg::FontResolver::default_fallback_selector();
     let options = usvg::Options {
