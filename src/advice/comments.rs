@@ -10,30 +10,24 @@ use spec::Study;
 use store::Result;
 use store::comments::{Remark, Severity, Side};
 
-/// Departure from which a comment on ease is major, mm: half of a grade step of 60 mm.
+/// Departure from which a comment on ease is major: half of a grade step of 60 mm.
 const MAJOR_MM: f64 = 30.0;
 /// Multiple of the limit of a sign from which it is major.
 const MAJOR_SIGN: f64 = 2.0;
-/// Pressure that wearers begin to call uncomfortable, kPa.
+/// Pressure that wearers begin to call uncomfortable.
 const PRESSES_KPA: f64 = 2.0;
 
-/// Comments on a garment on a subject.
 #[derive(Clone, Debug)]
 pub struct Fitted {
-    /// Name of the size that was fitted: the size to wear, or the nearest.
+    /// Size to wear, or the nearest.
     pub size: String,
-    /// Everything that was measured, as text: two rounds with the same basis are one.
     pub basis: String,
-    /// Comments, from the neck down.
+    /// Comments from the neck down.
     pub found: Vec<Remark>,
-    /// Reason why no action could be proposed.
     pub untold: Option<String>,
 }
 
-/// Comments on the size to wear of a garment on a subject; `None` where no size is known to be worn.
-///
-/// # Errors
-/// When the pattern cannot be read.
+/// `None` where no size is known to be worn.
 pub fn fitted(study: &Study, worn: &GarmentWorn) -> Result<Option<Fitted>> {
     let card = &worn.card;
     let Some(size) = card.to_wear() else { return Ok(None) };
@@ -97,7 +91,6 @@ fn on_ease(level: &LevelSits, proposed: Option<&Alteration>) -> Remark {
     }
 }
 
-/// Signs that a fitter reads off the balance of a drape.
 fn signs(study: &Study, worn: &GarmentWorn, drape: &SizeWorn) -> Result<Vec<Remark>> {
     let unit = |unit: &str| if unit == "deg" { "deg" } else { "mm" };
     let readings: Readings = drape

@@ -27,10 +27,8 @@ const EXTREME: f64 = 4.0;
 /// Greatest number of representatives for which people are grouped. Beyond it everybody who is drawn is a
 /// representative, since a round of grouping takes as many comparisons as people times representatives.
 const GROUPED: usize = 500;
-/// Greatest number of rounds of grouping.
 const ROUNDS: usize = 200;
 
-/// A person who represents a group of a population.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Representative {
     /// Measurements, rounded to 1 mm and 0.1 kg.
@@ -39,34 +37,26 @@ pub struct Representative {
     pub share: f64,
 }
 
-/// Numbers of people and representatives of a population.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PopulationOptions {
     /// Number of representatives of each sex.
     pub bodies: usize,
     /// Number of people drawn of each sex.
     pub people: usize,
-    /// Seed of the draw.
     pub seed: u64,
 }
 
-/// The representative of a study that is nearest to a person.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Nearest {
-    /// Name of the representative in the study.
     pub subject: String,
     /// Root mean square difference of the dimensions that both have, in standard deviations.
     pub distance: f64,
-    /// Dimension with the greatest difference.
     pub widest: Difference,
-    /// Jobs of the representative that have a result.
     pub jobs: Vec<JobId>,
 }
 
-/// A dimension in which two people differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
-    /// Dimension.
     pub dimension: Dimension,
     /// Value of the person who is asked about, m or kg.
     pub asked: f64,
@@ -75,13 +65,11 @@ pub struct Difference {
 }
 
 /// Draws people of a sex as frequently as they occur in the survey.
-#[must_use]
 pub(crate) fn people(sex: Sex, count: usize, random: &mut Draw) -> Vec<Measurements> {
     (0..count).map(|_| draw(sex, random)).collect()
 }
 
-/// Returns the representatives of a sex, the most frequent first.
-#[must_use]
+/// Most frequent first.
 pub fn representatives(sex: Sex, options: &PopulationOptions) -> Vec<Representative> {
     let mut random = Draw::new(options.seed ^ if sex == Sex::Male { 0x6d } else { 0x66 });
     if options.bodies > GROUPED {
@@ -103,8 +91,7 @@ pub fn representatives(sex: Sex, options: &PopulationOptions) -> Vec<Representat
     found
 }
 
-/// Writes the `[[subject]]` tables of representatives.
-#[must_use]
+/// Writes `[[subject]]` tables.
 pub fn subjects_text(representatives: &[Representative]) -> String {
     let mut text = String::new();
     for (number, Representative { measurements, share }) in representatives.iter().enumerate() {
@@ -122,10 +109,7 @@ pub fn subjects_text(representatives: &[Representative]) -> String {
     text
 }
 
-/// Subject of a study that is nearest to a person, of the same sex.
-///
-/// # Errors
-/// When a value is wrong, there is no such study, or it has nobody of that sex.
+/// Nearest subject of the same sex.
 pub fn nearest(store: &Store, study: &str, given: &[Given]) -> Result<Nearest> {
     read::study(store, study)?;
     let subject = &filled::<Measurements>(None, "", given).map_err(|problems| StudyError::Refused {

@@ -54,17 +54,14 @@ use geom::{TriMesh, V2, V3, hull};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Sex {
-    /// Body shape and sizing tables of men.
     #[serde(alias = "m", alias = "M")]
     Male,
-    /// Body shape and sizing tables of women.
     #[serde(alias = "f", alias = "F")]
     Female,
 }
 
 /// The 17 joints [T 3.1, figure 3-11].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[allow(missing_docs)]
 pub enum Joint {
     Pelvis,
     Waist,
@@ -88,13 +85,10 @@ pub enum Joint {
 /// Joint positions in the world frame, m, indexed by [`Joint`].
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Skeleton {
-    /// Positions in the order of [`Joint`].
     pub joints: [V3; 17],
 }
 
 impl Skeleton {
-    /// Position of a joint, metres.
-    #[must_use]
     pub fn at(&self, joint: Joint) -> V3 {
         self.joints[joint as usize]
     }
@@ -111,7 +105,6 @@ pub struct Landmarks {
     pub back_neck: V3,
     /// Front neck point (suprasternale).
     pub front_neck: V3,
-    /// Lowest points of the armpits.
     pub armpit: [V3; 2],
     /// Most prominent points of the chest or bust.
     pub bust: [V3; 2],
@@ -119,18 +112,17 @@ pub struct Landmarks {
     pub crotch: V3,
 }
 
-/// Heights of the girth levels above the floor, m.
+/// Heights above the floor.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Levels {
     /// Chest or bust.
     pub chest_m: f64,
-    /// Under the bust.
     pub underbust_m: f64,
-    /// Waist (ISO 8559-1).
+    /// Level of ISO 8559-1.
     pub waist_m: f64,
-    /// Hip: height of the greatest protrusion of the buttocks (ISO 8559-1).
+    /// Height of the greatest protrusion of the buttocks (ISO 8559-1).
     pub hip_m: f64,
-    /// Crotch: upper end of the inside leg.
+    /// Upper end of the inside leg.
     pub crotch_m: f64,
     /// Height of the least girth of the neck, read at the spine.
     pub neck_m: f64,
@@ -139,32 +131,26 @@ pub struct Levels {
 /// A human model that can be dressed.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Body {
-    /// Sex, which decides mean shape and waist level.
+    /// Decides mean shape and waist level.
     pub sex: Sex,
     /// Closed fine mesh, m.
     pub mesh: TriMesh,
-    /// Joint positions, m, about which a pose turns the limbs.
     pub skeleton: Skeleton,
-    /// Landmarks that patterns and measurements refer to.
     pub landmarks: Landmarks,
-    /// Heights of the girth levels.
     pub levels: Levels,
     /// Coarse control mesh of rings on the skin [T 3.2.2].
     pub control: ControlMesh,
-    /// Girths that the tape reads on the fine mesh.
+    /// Readings of the tape on the fine mesh.
     pub girths: Girths,
 }
 
 impl Body {
     /// Girth of the trunk at a height above the floor, m, as a taut tape reads it. `None` at a height without a trunk.
-    #[must_use]
     pub fn trunk_girth_at(&self, height_m: f64) -> Option<f64> {
         measure::tape::trunk_girth(&self.mesh, height_m, self.skeleton.at(Joint::Waist).x)
     }
 
-    /// Returns the body inside a garment that `mesh` encloses. Girths of the trunk are read over `on_trunk`, the cloth
-    /// on the trunk.
-    #[must_use]
+    /// Body inside a garment that `mesh` encloses. Girths of the trunk are read over `on_trunk`, the cloth there.
     pub fn enclosed(&self, mesh: TriMesh, on_trunk: &TriMesh) -> Self {
         let Levels { chest_m, underbust_m, waist_m, hip_m, .. } = self.levels;
         let mut girths = self.girths.clone();
@@ -187,20 +173,17 @@ impl Body {
     }
 
     /// Tailor's measurements other than girths.
-    #[must_use]
     pub fn tailor(&self) -> Vec<Taken> {
         measure::tailor::of_body(self)
     }
 
     /// Bands on the skin that show the tape round chest, under-bust, waist and hip, m.
-    #[must_use]
     pub fn tapes(&self) -> TriMesh {
         let Levels { chest_m, underbust_m, waist_m, hip_m, .. } = self.levels;
         measure::tape::bands(&self.mesh, &[chest_m, underbust_m, waist_m, hip_m], 0.0)
     }
 
     /// Bands on the skin that show the lines of the tailor's measurements, m.
-    #[must_use]
     pub fn lines(&self) -> TriMesh {
         let mut bands = TriMesh::default();
         self.tailor().iter().for_each(|taken| measure::tape::draw(&mut bands, &taken.path));

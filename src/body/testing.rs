@@ -4,7 +4,6 @@ use crate::Girths;
 use geom::{TriMesh, V3};
 use std::fmt::Write as _;
 
-/// Written value of a key.
 pub fn in_mm(girths: &Girths, key: &str) -> f64 {
     girths.written(key).unwrap_or_else(|| panic!("{key} is not read"))
 }
@@ -24,21 +23,18 @@ impl Noise {
     }
 }
 
-/// Adds noise with a standard deviation, metres, to every vertex.
 pub fn roughen(mesh: &mut TriMesh, sigma: f64, noise: &mut Noise) {
     for p in &mut mesh.positions {
         *p += V3::new(noise.normal(), noise.normal(), noise.normal()) * (sigma / 3.0_f64.sqrt());
     }
 }
 
-/// Cuts round holes of a radius about some places, metres.
 pub fn pierce(mesh: &mut TriMesh, places: &[V3], radius: f64) {
     let near = |i: usize| places.iter().any(|place| (mesh.positions[i] - place).norm() < radius);
     let kept = mesh.triangles.iter().copied().filter(|triangle| !triangle.iter().any(|&i| near(i))).collect();
     mesh.triangles = kept;
 }
 
-/// Maps every vertex of a mesh.
 pub fn placed(mesh: &TriMesh, rule: impl Fn(V3) -> V3) -> TriMesh {
     TriMesh { positions: mesh.positions.iter().map(|p| rule(*p)).collect(), triangles: mesh.triangles.clone() }
 }
@@ -131,7 +127,6 @@ pub fn silhouette(mesh: &TriMesh, side: bool, taken: Taken, [width, height]: [u3
     picture
 }
 
-/// Whitens the pixels whose centre lies in a triangle.
 fn fill(picture: &mut image::GrayImage, corners: [[f64; 2]; 3]) {
     let turned = |a: [f64; 2], b: [f64; 2], p: [f64; 2]| (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
     let range = |axis: usize, size: u32| {
@@ -153,14 +148,12 @@ fn fill(picture: &mut image::GrayImage, corners: [[f64; 2]; 3]) {
     }
 }
 
-/// Encodes a picture as PNG.
 pub fn png(picture: &image::GrayImage) -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());
     picture.write_to(&mut bytes, image::ImageFormat::Png).expect("a picture in memory");
     bytes.into_inner()
 }
 
-/// Folder of the reference bodies beside the project, if it is there.
 pub fn reference_bodies() -> Option<std::path::PathBuf> {
     let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/bodies"));
     folder.is_dir().then(|| folder.to_path_buf())

@@ -8,7 +8,6 @@ use fit::target::band_words;
 use geom::units::signed_tenths;
 use store::{Table, Value};
 
-/// Runs `toile alter`: finds or applies the alteration of a size for a subject, and prints it.
 pub fn alter(context: &Context, arguments: &Alter) -> Outcome {
     arguments.output.as_deref().map(|folder| output::folder(folder, &["dxf", "toml", "json", "svg"])).transpose()?;
     let store = context.store()?;

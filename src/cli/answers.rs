@@ -14,7 +14,6 @@ use geom::units::mm;
 use results::{Finding, audit};
 use store::{EaseRow, StudyError, Table, Value, read, saved_queries, saved_query, sql};
 
-/// Formats of rows by the endings of files.
 const FORMATS: [(&str, Format); 5] = [
     ("csv", Format::Csv),
     ("json", Format::Json),
@@ -23,7 +22,7 @@ const FORMATS: [(&str, Format); 5] = [
     ("txt", Format::Table),
 ];
 
-/// Runs `toile sql`. Ctrl-C ends a query.
+/// Ctrl-C ends a query.
 pub fn sql(context: &Context, arguments: &Sql) -> Outcome {
     let project = project_folder().map(|project| project.join("db").join("queries"));
     if arguments.list {
@@ -82,8 +81,7 @@ fn is_name(query: &str) -> bool {
     query.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-')) && !query.is_empty()
 }
 
-/// Runs `toile audit`: prints findings. Findings on a study make the exit code 3. The errors of the thesis are known
-/// and do not.
+/// Findings on a study make the exit code 3. The errors of the thesis are known and do not.
 pub fn audit(context: &Context, arguments: &AuditArguments) -> Outcome {
     let path = match (&arguments.command, &arguments.study) {
         (Some(AuditCommand::Garments(arguments)), _) => return wardrobe::audit(context, arguments),
@@ -125,7 +123,6 @@ fn ease_row(ease: EaseRow) -> Vec<Value> {
     ]
 }
 
-/// Runs `toile ease`: prints ease and fit class of every size on every subject, level by level.
 pub fn ease(context: &Context, arguments: &StudyPath) -> Outcome {
     let (store, name) = context.eased(&arguments.study)?;
     let columns = [
@@ -156,7 +153,6 @@ pub fn ease(context: &Context, arguments: &StudyPath) -> Outcome {
     Ok(End::Done)
 }
 
-/// Message where a garment has no level.
 pub const NO_EASE: &str = "no ease is known: the roles of the pieces show no girth; `toile pattern seam role` sets a role, and a seam file \
      may name the line of a level ([fit.chest], docs/reference.md)";
 

@@ -20,7 +20,6 @@ const SILENT: Duration = Duration::from_secs(5);
 /// Least share done from which the time left is told. A smaller one takes too little time to tell.
 const LEAST_SHARE: f64 = 0.1;
 
-/// Runs `toile try`: writes pictures and meshes, and prints measurements.
 pub fn run(context: &Context, arguments: &Try) -> Outcome {
     let asked = Attempt {
         body: arguments.body.body.clone(),
@@ -109,7 +108,6 @@ fn layers(arguments: &Try) -> Result<Vec<AttemptLayer>, CliError> {
     Ok(arguments.pattern.iter().enumerate().map(layer).collect())
 }
 
-/// Prints the measurements of the last stage, the girths that the garment lacks, and the summary.
 fn show(context: &Context, tried: &Tried) -> Result<(), CliError> {
     let mut columns = ["no", "measurement", "free", "l2d_mm", "l3d_mm", "chi"].map(str::to_owned).to_vec();
     if tried.chi_spread_max.is_some() {
@@ -155,7 +153,6 @@ fn show(context: &Context, tried: &Tried) -> Result<(), CliError> {
     context.print(&Table::new(columns, [row]))
 }
 
-/// Prints the changes by a movement: openings, then loads on pieces and on regions of the body.
 fn show_reach(context: &Context, reach: &Reached) -> Result<(), CliError> {
     let columns = ["opening", "drawn_mm", "drawn_most_mm"];
     let drawn = |reached: &ReachedOpening| {
@@ -171,7 +168,6 @@ fn show_reach(context: &Context, reach: &Reached) -> Result<(), CliError> {
     Ok(())
 }
 
-/// Number rounded to a hundredth.
 fn hundredths(number: f64) -> Value {
     Value::Real((number * 100.0).round() / 100.0)
 }

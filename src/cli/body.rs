@@ -15,13 +15,10 @@ use store::{Table, Value, files};
 use wardrobe::catalogue;
 use wardrobe::evaluate::{self, Accuracy};
 
-/// Size of the picture of a body, pixels.
 const PICTURE: (u32, u32) = (700, 1200);
 
-/// Endings of the files of a body.
 const FILES: [&str; 3] = ["obj", "png", "json"];
 
-/// Runs a body command.
 pub fn run(context: &Context, command: &Body) -> Outcome {
     match command {
         Body::Measure { file, unit, sex } => {
@@ -43,7 +40,6 @@ pub fn run(context: &Context, command: &Body) -> Outcome {
     Ok(End::Done)
 }
 
-/// The sex of an argument.
 pub fn sex_of(sex: Sex) -> bodies::Sex {
     match sex {
         Sex::M => bodies::Sex::Male,
@@ -74,7 +70,6 @@ fn evaluate(context: &Context, folder: &Path) -> Result<(), CliError> {
     context.print(&Table::new(columns, rows))
 }
 
-/// Builds a body and writes its mesh, picture and measurements.
 fn build(context: &Context, arguments: &BodyBuild) -> Result<(), CliError> {
     output::folder(&arguments.output, &FILES)?;
     if let Some(file) = &arguments.scan {
@@ -101,14 +96,12 @@ fn build(context: &Context, arguments: &BodyBuild) -> Result<(), CliError> {
     print(context, &judgement.read, judgement.read.figures.as_deref())
 }
 
-/// Writes a body's files and prints its measurements.
 fn write(context: &Context, body: &bodies::Body, folder: &Path) -> Result<(), CliError> {
     write_files(context, body, folder)?;
     let read = bodies::read_body(body);
     print(context, &read, read.figures.as_deref())
 }
 
-/// Writes mesh, picture, measurements and control mesh of a body.
 fn write_files(context: &Context, body: &bodies::Body, folder: &Path) -> Result<(), CliError> {
     let document = serde_json::to_string_pretty(&bodies::read_body(body)).map_err(std::io::Error::from)?;
     let mut files = vec![
@@ -120,7 +113,6 @@ fn write_files(context: &Context, body: &bodies::Body, folder: &Path) -> Result<
     context.write_files(folder, &files)
 }
 
-/// Reads a scan. Prints remarks on guesses and repairs.
 fn read_scan(
     context: &Context,
     source: &files::SourceFile,
@@ -181,7 +173,6 @@ fn person(context: &Context, arguments: &BodyBuild) -> Result<Person, CliError> 
     Ok(Person { figures: if figures.is_empty() { stored } else { figures }, ..known.into() })
 }
 
-/// Sets given values in measurements.
 fn set_given(known: &mut Measurements, given: &[Given]) -> Result<(), CliError> {
     for (key, text) in given {
         let Some(field) = MEASUREMENTS.iter().find(|field| field.key == key) else { continue };
@@ -190,7 +181,6 @@ fn set_given(known: &mut Measurements, given: &[Given]) -> Result<(), CliError> 
     Ok(())
 }
 
-/// Measurements from a front and a side picture.
 fn pictured(
     context: &Context,
     arguments: &BodyBuild,

@@ -13,10 +13,8 @@ use wardrobe::{Imported, Mode, Part, Saved, ScanGiven, SizeRow, Strictness, Styl
 
 /// Values of one part of the catalogue on the command line.
 pub trait Values: Args {
-    /// Part to which the values belong.
     const PART: Part;
 
-    /// Saves an entry with the values.
     fn save(&self, store: &mut Store, mode: Mode, name: &str) -> Result<Vec<Saved>, CliError>;
 }
 
@@ -78,7 +76,6 @@ pub fn pattern_of(text: &str) -> (Option<String>, PathBuf) {
     }
 }
 
-/// Name of a unit in study files.
 pub fn unit_name(unit: PatternUnit) -> Option<String> {
     unit.to_possible_value().map(|value| value.get_name().to_owned())
 }
@@ -93,7 +90,6 @@ fn view(part: Part) -> (&'static str, &'static str) {
     }
 }
 
-/// Columns that a list does not show.
 const HIDDEN: [&str; 8] = [
     "hash",
     "is_latest",
@@ -105,7 +101,6 @@ const HIDDEN: [&str; 8] = [
     "class_length_weft_mm",
 ];
 
-/// Runs a catalogue command.
 pub fn run<V: Values>(context: &Context, command: Catalogue<V>) -> Outcome {
     match command {
         Catalogue::Ls { all } => list(context, V::PART, all)?,
@@ -134,7 +129,6 @@ fn import(context: &Context, part: Part, files: &[PathBuf], good_rows: bool) -> 
     Ok(if left_out.is_empty() { End::Done } else { End::CheckFailed })
 }
 
-/// Runs a command on styles.
 pub fn style(context: &Context, command: StyleCommand) -> Outcome {
     let (name, step) = match command {
         StyleCommand::Of(command) => return run(context, command),
@@ -154,7 +148,6 @@ pub fn style(context: &Context, command: StyleCommand) -> Outcome {
     Ok(End::Done)
 }
 
-/// Prints saved entries, with doubts, and with remarks on guesses and repairs.
 pub fn say(context: &Context, saved: &[Saved]) {
     for entry in saved {
         entry.notes.iter().for_each(|note| context.say(format_args!("{} {}: {note}", entry.part, entry.name)));
@@ -205,7 +198,6 @@ fn described(part: Part, entries: Table) -> Table {
     if part == Part::Fabric { wardrobe::with_bending(entries) } else { entries }
 }
 
-/// A table without some columns.
 fn without(table: Table, hidden: &[&str]) -> Table {
     let kept: Vec<usize> = (0..table.columns.len()).filter(|&k| !hidden.contains(&table.columns[k].as_str())).collect();
     let pick = |row: &Vec<Value>| kept.iter().map(|&k| row[k].clone()).collect();

@@ -10,8 +10,6 @@ use store::{Table, Value};
 /// Accepted share of true values within the 80 % intervals.
 const CALIBRATED: std::ops::RangeInclusive<f64> = 0.77..=0.83;
 
-/// Runs `toile chance`: prints the probability that sizes of a garment fit a subject, or the calibration on simulated
-/// people.
 pub fn chance(context: &Context, arguments: &Arguments) -> Outcome {
     arguments.output.as_deref().map(pictures::chart_format).transpose()?;
     let store = context.store()?;
@@ -74,7 +72,6 @@ fn print(context: &Context, found: &Chance) -> Result<(), CliError> {
     Ok(())
 }
 
-/// Share in whole percent.
 fn percent(share: f64) -> String {
     format!("{:.0}", 100.0 * share)
 }
@@ -111,7 +108,6 @@ fn levels(size: &SizeChance) -> Table {
     table(columns, size.levels.iter().map(row))
 }
 
-/// Table of the body's dimensions: readings, and their likely true values.
 fn body(dimensions: &[LikelyDimension]) -> Table {
     let row = |likely: &LikelyDimension| {
         let [read, error] = likely.read?;

@@ -8,7 +8,6 @@ use results::assessment;
 use store::comments::{self, Comment as Kept, Edit, Fitting, Remark, State};
 use store::{Store, StudyError, Table, Value};
 
-/// Runs `toile comment`.
 pub fn comment(context: &Context, command: &Comment) -> Outcome {
     match command {
         Comment::Ls(fittings) => list(context, fittings),
@@ -81,7 +80,6 @@ fn round(context: &Context, fittings: &Fittings) -> Outcome {
     print(context, &kept(&store, &name, fittings)?)
 }
 
-/// Comments of the fittings that are asked for.
 fn kept(store: &Store, study: &str, fittings: &Fittings) -> Result<Vec<Kept>, CliError> {
     let is = |asked: &Option<String>, name: &str| asked.as_deref().is_none_or(|asked| asked == name);
     let all = comments::comments(store, study)?.into_iter();

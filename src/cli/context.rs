@@ -10,26 +10,19 @@ use store::owner::Watch;
 use store::{PUBLISHED, Store, Table, files, queue, read};
 use wardrobe::catalogue;
 
-/// The global flags, resolved.
 pub struct Context {
-    /// Path of the database file.
     pub db: PathBuf,
-    /// True if the database was named, by a flag or the environment.
+    /// True if a flag or the environment names the database.
     pub is_db_named: bool,
-    /// True if the database may only be read.
     pub readonly: bool,
-    /// True to print JSON.
     pub json: bool,
     /// True to print only errors.
     pub quiet: bool,
-    /// True to print more messages.
     pub verbose: bool,
-    /// True if colours may be used.
     pub colour: bool,
 }
 
 impl Context {
-    /// Resolves the global flags.
     pub fn new(global: Global) -> Result<Self, CliError> {
         let is_db_named = global.db.is_some();
         let db = match global.db {
@@ -58,7 +51,6 @@ impl Context {
         Ok(())
     }
 
-    /// Opens the store.
     pub fn store(&self) -> Result<Store, CliError> {
         let is_new = !self.db.exists();
         let mut store = catalogue::open(&self.db, self.readonly)?;
@@ -72,14 +64,14 @@ impl Context {
         Ok(store)
     }
 
-    /// Prints a message on standard error, unless `quiet`.
+    /// Prints on standard error, unless `quiet`.
     pub fn say(&self, message: impl std::fmt::Display) {
         if !self.quiet {
             super::output::note(&message);
         }
     }
 
-    /// Writes files into a folder, and prints their paths on standard error.
+    /// Prints the paths on standard error.
     pub fn write_files(&self, folder: &Path, files: &[(String, Vec<u8>)]) -> Result<(), CliError> {
         for path in files::write_files(folder, files)? {
             self.say(format_args!("wrote {}", path.display()));
@@ -87,7 +79,6 @@ impl Context {
         Ok(())
     }
 
-    /// Writes a file, and prints its path on standard error.
     pub fn write(&self, path: &Path, bytes: Vec<u8>) -> Result<(), CliError> {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         files::write_files(path.parent().unwrap_or(Path::new("")), &[(name, bytes)])?;
@@ -95,7 +86,6 @@ impl Context {
         Ok(())
     }
 
-    /// Prints a table, as JSON if that was asked for.
     pub fn print(&self, table: &Table) -> Result<(), CliError> {
         let format = if self.json { Format::Json } else { Format::Table };
         Ok(super::output::table(table, format)?)
@@ -131,7 +121,7 @@ impl Context {
         Ok((store, study.name))
     }
 
-    /// Name of a study, given by its folder, its file or its name.
+    /// Name of a study, given by its folder, file or name.
     pub fn study_name(&self, store: &Store, path: &Path) -> Result<String, CliError> {
         let name = path.to_string_lossy();
         if name == PUBLISHED {
@@ -147,7 +137,7 @@ impl Context {
     }
 }
 
-/// Folder for the study that comes with the program: in the project, else beside the database.
+/// Folder for the program's own study: in the project, else beside the database.
 pub fn quickstart(database: &Path) -> PathBuf {
     let home = project_folder().or_else(|| database.parent().map(Path::to_owned)).unwrap_or_default();
     home.join("studies").join(QUICKSTART)

@@ -18,7 +18,6 @@ use super::{End, Outcome, output};
 use engine::Ending;
 use store::{JobFilter, JobId, JobRow, Status, Store, StudyError, files, read};
 
-/// Time between two checks of the running jobs.
 const LOOK: Duration = Duration::from_millis(250);
 /// Number of checks without a running job after which no process works on the study. A starting process needs a few.
 const PATIENCE: u32 = 60;

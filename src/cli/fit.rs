@@ -8,7 +8,6 @@ use fit::target::band_words;
 use results::{FitCard, LevelSits, Sits, SizeSits, fit_card};
 use store::{Table, Value};
 
-/// Runs `toile fit`: prints the fit cards of a study.
 pub fn fit(context: &Context, arguments: &Fit) -> Outcome {
     let (store, study) = context.eased(&arguments.study)?;
     let cards = fit_card::fit_cards(&store, &study, arguments.garment.as_deref(), arguments.subject.as_deref())?;
@@ -61,7 +60,6 @@ fn table(card: &FitCard) -> Table {
     Table { columns, rows: card.levels().into_iter().map(row).collect() }
 }
 
-/// Levels that the drape of a size does not cover all round, in words.
 fn uncovered(card: &FitCard, size: &SizeSits) -> Vec<String> {
     let is_bare = |level: &&LevelSits| level.covered_deg.is_some();
     let words = |level: &LevelSits| {

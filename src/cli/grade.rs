@@ -11,7 +11,6 @@ use report::file_part;
 use spec::bodies::Sex;
 use store::{Table, Value, files};
 
-/// Runs `toile grade`: finds the sizes that fit the most people, prints and writes them.
 pub fn grade(context: &Context, arguments: &Grade) -> Outcome {
     let endings = ["dxf", "rul", "toml", "svg", "xlsx"];
     arguments.output.as_deref().map(|folder| output::folder(folder, &endings)).transpose()?;
@@ -48,7 +47,6 @@ pub fn grade(context: &Context, arguments: &Grade) -> Outcome {
     Ok(if disagrees { End::CheckFailed } else { End::Done })
 }
 
-/// All tables, with titles.
 fn sheets(found: &Grading) -> Vec<(&'static str, Table)> {
     vec![
         ("coverage", coverage(found)),
@@ -116,7 +114,6 @@ fn coverage(found: &Grading) -> Table {
     Table::new(columns, rows)
 }
 
-/// Shares of people whom both sets fit at each level.
 fn levels(found: &Grading) -> Table {
     let columns =
         ["level", "target_mm", "own within_percent", "new within_percent", "own fails_percent", "new fails_percent"];
@@ -127,7 +124,6 @@ fn levels(found: &Grading) -> Table {
     Table::new(columns, rows)
 }
 
-/// Shares of people whom both sets fit, by parts of a girth.
 fn parts(found: &Grading) -> Table {
     let (level, parts) = &found.parts;
     let girth = format!("{level}_mm");
@@ -144,7 +140,6 @@ fn new(found: &Grading) -> &[SizeShare] {
     found.sets.last().map_or(&[], |set| &set.sizes)
 }
 
-/// Lengths that grow with a girth, with their steps.
 fn growth(found: &Grading) -> Table {
     let step = |row: &Grown, group: usize| row.steps_mm.get(group).map_or(Value::Null, |step| tenths(*step));
     let row = |row: &Grown| {

@@ -6,7 +6,7 @@ use geom::units::mm;
 use results::{Check, checks};
 use store::{INSIDE_M, Status, Table, Value, read};
 
-/// Runs `toile doctor`: prints every check with its finding. Exit code 3 if one fails.
+/// Exit code 3 if a check fails.
 pub fn doctor(context: &Context) -> Outcome {
     let found: Vec<Check> = checks(&context.db, context.readonly);
     let text = |text: &str| Value::Text(text.to_owned());
@@ -18,7 +18,6 @@ pub fn doctor(context: &Context) -> Outcome {
     Ok(if found.iter().all(|check| check.passed) { End::Done } else { End::CheckFailed })
 }
 
-/// Runs `toile info`: prints version, database and studies.
 pub fn info(context: &Context) -> Outcome {
     let store = context.store()?;
     let mut rows = vec![

@@ -8,7 +8,6 @@ use super::run::selection;
 use super::{End, Outcome, output};
 use engine::{handout, run_job};
 
-/// Runs a job command.
 pub fn run(context: &Context, command: &Job) -> Outcome {
     match command {
         Job::Handout { study, output, part } => {

@@ -6,7 +6,6 @@ use super::{End, Outcome};
 use sim::laboratory::bench::Experiment;
 use store::{InOrigin, Origin, Table, Value};
 
-/// Runs `toile lab`: prints the findings of each experiment and its known answers.
 pub fn lab(context: &Context, arguments: &Lab) -> Outcome {
     let is_asked = |experiment: &Experiment| {
         arguments.experiment.is_empty() || arguments.experiment.iter().any(|name| name == experiment.as_str())

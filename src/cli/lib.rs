@@ -51,22 +51,18 @@ use args::{Arguments, Command};
 use context::Context;
 use store::StudyError;
 
-/// Exit code of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum End {
-    /// The command succeeded.
     Done = 0,
     /// The arguments or the input cannot be used.
     Unusable = 2,
     /// A check or tolerance failed.
     CheckFailed = 3,
-    /// A job failed.
     JobFailed = 4,
     /// A signal such as Ctrl-C ended the command.
     Interrupted = 130,
 }
 
-/// Error of a command.
 #[derive(Debug, thiserror::Error)]
 enum CliError {
     #[error(transparent)]
@@ -86,23 +82,18 @@ impl CliError {
     }
 }
 
-/// Result of a command.
 type Outcome = Result<End, CliError>;
 
-/// Options of the workbench, from the command line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Workbench {
-    /// Path of the database file.
     pub database: PathBuf,
     /// True where the database was named by the user, so that commands shown must name it too.
     pub is_database_named: bool,
-    /// True where the database may only be read.
     pub readonly: bool,
-    /// True if colours are off.
     pub no_color: bool,
     /// Display of pictures: `auto`, `halfblocks` or `off`.
     pub images: String,
-    /// Folder of the study that comes with the program. It need not be written yet.
+    /// Study that comes with the program. It need not be written yet.
     pub quickstart: PathBuf,
 }
 
@@ -110,10 +101,7 @@ pub struct Workbench {
 pub const ENCODERS: [store::Encoder; 2] =
     [("parquet", |table| Ok(parquet::bytes(table))), ("xlsx", |table| xlsx::bytes(&[("rows", table)]))];
 
-/// Returns the command line: every command with its arguments.
-///
 /// The possible values of an argument follow its help in the same line, so that a command's help fits a screen.
-#[must_use]
 pub fn command() -> clap::Command {
     compact(Arguments::command()).disable_help_subcommand(false)
 }
@@ -140,7 +128,7 @@ fn with_values_in_line(argument: clap::Arg) -> clap::Arg {
     argument.help(help).hide_possible_values(true)
 }
 
-/// Parses the arguments, of which the first is the program's own name.
+/// First of the arguments is the program's own name.
 fn read(arguments: &[OsString]) -> Result<Arguments, clap::Error> {
     Arguments::from_arg_matches_mut(&mut command().try_get_matches_from(arguments)?)
 }

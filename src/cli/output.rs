@@ -11,7 +11,6 @@ use super::args::Format;
 use geom::units::significant;
 use store::{Table, Value, distinct, files};
 
-/// Prints an error on standard error.
 pub fn tell(message: &impl std::fmt::Display) {
     note(&format!("toile: {message}"));
 }
@@ -55,12 +54,12 @@ pub fn folder(path: &Path, endings: &[&str]) -> Result<(), CliError> {
     )))
 }
 
-/// Writes text to standard output; a closed pipe (`| head`) is no error.
+/// Closed pipe (`| head`) is no error.
 pub fn text(text: &str) -> io::Result<()> {
     bytes(text.as_bytes())
 }
 
-/// Writes bytes to standard output, as [`text`] does.
+/// Writes as [`text`] does.
 pub fn bytes(bytes: &[u8]) -> io::Result<()> {
     let mut out = io::stdout().lock();
     match out.write_all(bytes).and_then(|()| out.flush()) {
@@ -69,24 +68,20 @@ pub fn bytes(bytes: &[u8]) -> io::Result<()> {
     }
 }
 
-/// Writes a JSON document.
 pub fn json(value: &impl serde::Serialize) -> io::Result<()> {
     text(&document(value)?)
 }
 
-/// JSON document as text.
 fn document(value: &impl serde::Serialize) -> io::Result<String> {
     let mut document = serde_json::to_string_pretty(value)?;
     document.push('\n');
     Ok(document)
 }
 
-/// Writes a table in a format.
 pub fn table(table: &Table, format: Format) -> io::Result<()> {
     bytes(&encoded(table, format)?)
 }
 
-/// Bytes of a table in a format.
 pub fn encoded(table: &Table, format: Format) -> io::Result<Vec<u8>> {
     Ok(match format {
         Format::Table => pretty(table).into_bytes(),
@@ -97,13 +92,12 @@ pub fn encoded(table: &Table, format: Format) -> io::Result<Vec<u8>> {
     })
 }
 
-/// Columns of the terminal; `None` where standard output is none, or the terminal does not say.
+/// `None` where standard output is no terminal, or the terminal does not say.
 pub fn terminal_width() -> Option<usize> {
     let is_terminal = io::IsTerminal::is_terminal(&io::stdout());
     Grid::new().width().filter(|columns| is_terminal && *columns > 0).map(usize::from)
 }
 
-/// Blanks around a column.
 const GAP: usize = 3;
 
 /// Columns of a table that fit into a width side by side without a broken line, from the left, and the number of those
@@ -154,12 +148,10 @@ pub fn pretty(table: &Table) -> String {
     grid.lines().map(|line| format!("{}\n", line.trim_end())).collect()
 }
 
-/// Number rounded to a tenth.
 pub fn tenths(number: f64) -> Value {
     Value::Real((number * 10.0).round() / 10.0)
 }
 
-/// Value as text for people.
 fn short(value: &Value) -> String {
     match value {
         Value::Real(number) => significant(*number, 6),
@@ -167,7 +159,7 @@ fn short(value: &Value) -> String {
     }
 }
 
-/// Rows as JSON objects, with keys in the order of the columns.
+/// Keys are in the order of the columns.
 pub fn rows(table: &Table) -> Vec<Map<String, Json>> {
     let names = distinct(&table.columns);
     table.rows.iter().map(|row| names.iter().cloned().zip(row.iter().map(Json::from)).collect()).collect()

@@ -17,7 +17,6 @@ enum Kind {
     ByteArray = 6,
 }
 
-/// Returns a table as the bytes of a Parquet file.
 pub fn bytes(table: &Table) -> Vec<u8> {
     let mut file = MAGIC.to_vec();
     let mut schema = vec![root(table.columns.len())];
@@ -109,7 +108,6 @@ fn root(columns: usize) -> Vec<u8> {
     root.end()
 }
 
-/// Element of the schema for a column.
 fn element(name: &str, kind: Kind) -> Vec<u8> {
     let mut element = Struct::default();
     element.i32(1, kind as i32);

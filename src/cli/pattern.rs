@@ -12,7 +12,6 @@ use store::{Table, Value, files};
 use wardrobe::seams::pattern_files::inspect as inspect_files;
 use wardrobe::seams::{self, CHECK_EDGE_MM, SizeCheck};
 
-/// Runs a pattern command.
 pub fn run(context: &Context, command: &Pattern) -> Outcome {
     match command {
         Pattern::Inspect { path, files, by_file } => {
@@ -55,7 +54,6 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
     }
 }
 
-/// Drafted style that an argument names.
 pub fn model(style: DraftStyle) -> Model {
     match style {
         DraftStyle::Tshirt => Model::Tshirt,
@@ -86,7 +84,6 @@ fn propose(context: &Context, path: &Path, proposed: &seams::Proposed, output: O
     Ok(if proposal.seams.is_empty() { End::CheckFailed } else { End::Done })
 }
 
-/// Edits a seam file in place.
 fn seam(context: &Context, command: &SeamCommand) -> Outcome {
     let (home, step) = command.clone().step();
     let unit = home.unit.map(Unit::from);
@@ -163,7 +160,6 @@ fn pieces(reports: &[FileReport]) -> Table {
     Table::new(columns, rows)
 }
 
-/// A row for each file.
 fn outcomes(reports: &[FileReport]) -> Table {
     let columns = ["file", "format", "unit", "pieces", "sizes", "half pieces", "refused", "outcome"];
     let row = |report: &FileReport| {
@@ -239,7 +235,6 @@ fn told(finding: &Finding) -> String {
     format!("{}: `{}`: {}", finding.kind.as_str(), finding.place, finding.found)
 }
 
-/// Prints a row for each size of a study.
 fn check_study(context: &Context, path: &Path) -> Outcome {
     if context.db.exists() && !context.readonly {
         // A study names entries of the catalogue, so opening the store migrates an older database first.

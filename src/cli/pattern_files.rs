@@ -9,7 +9,6 @@ use spec::patterns::Unit;
 use wardrobe::seams::pattern_files::{self, Beside, Standard};
 use wardrobe::seams::{Asking, specification};
 
-/// Size, units and tables that go with a pattern file, from the arguments.
 pub fn beside(files: &BesideFiles) -> Beside<'_> {
     Beside {
         size: files.size.as_deref(),
@@ -20,7 +19,6 @@ pub fn beside(files: &BesideFiles) -> Beside<'_> {
     }
 }
 
-/// Writes the features of a pattern's pieces, or prints them.
 pub fn features(context: &Context, path: &Path, files: &BesideFiles, output: Option<&Path>) -> Outcome {
     output.map(|output| output::kind(output, &[("json", ())])).transpose()?;
     let (json, notes) = pattern_files::features(path, &beside(files))?;
@@ -33,7 +31,6 @@ pub fn features(context: &Context, path: &Path, files: &BesideFiles, output: Opt
     Ok(End::Done)
 }
 
-/// Format of a sheet of points of measure.
 #[derive(Clone, Copy)]
 enum SheetFormat {
     Csv,
@@ -41,11 +38,9 @@ enum SheetFormat {
     Svg,
 }
 
-/// Formats of sheets by the endings of files.
 const SHEETS: [(&str, SheetFormat); 3] =
     [("csv", SheetFormat::Csv), ("xlsx", SheetFormat::Xlsx), ("svg", SheetFormat::Svg)];
 
-/// Prints the points of measure of a pattern, or writes them as a sheet.
 pub fn points_of_measure(
     context: &Context,
     path: &Path,
@@ -72,7 +67,6 @@ pub fn points_of_measure(
     Ok(End::Done)
 }
 
-/// Format of a pattern.
 #[derive(Clone, Copy)]
 enum PatternFormat {
     /// AAMA or ASTM DXF.
@@ -84,17 +78,15 @@ enum PatternFormat {
 /// Formats of patterns by the endings of files; SVG is written by `toile pattern sheet`.
 const PATTERNS: [(&str, PatternFormat); 2] = [("dxf", PatternFormat::Dxf), ("json", PatternFormat::Json)];
 
-/// Options for writing a pattern.
 pub struct Written<'a> {
     /// Seam file, for formats that hold seams.
     pub seams: Option<&'a Path>,
-    /// Standard of a DXF file.
     pub standard: Standard,
     /// True to write the sample size and a grade rule table.
     pub with_rul: bool,
 }
 
-/// Writes a pattern in the format of the output's ending.
+/// Format is that of the output's ending.
 pub fn convert(
     context: &Context,
     path: &Path,

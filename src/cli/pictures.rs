@@ -19,7 +19,6 @@ use sim::Stage;
 use spec::Study;
 use store::{JobId, Store, files};
 
-/// Runs `toile render`: writes a picture, a sheet or a turntable of results.
 pub fn render(context: &Context, arguments: &Render) -> Outcome {
     let shot = |view: &ViewArgument| match view {
         ViewArgument::Front => Shot::View(View::Front),
@@ -60,12 +59,10 @@ pub fn render(context: &Context, arguments: &Render) -> Outcome {
     Ok(End::Done)
 }
 
-/// Parses a colour.
 fn colour(text: &str) -> Result<Rgb, CliError> {
     Rgb::from_hex(text).ok_or_else(|| CliError::Usage(format!("{text} is no colour; accepted: #rrggbb, like #dcb094")))
 }
 
-/// Runs `toile export`: writes body and garment of a result as a mesh file.
 pub fn export(context: &Context, arguments: &Export) -> Outcome {
     let formats = [
         ("glb", FormatArgument::Glb),
@@ -96,7 +93,6 @@ fn map(argument: MapArgument) -> Map {
     }
 }
 
-/// Writes a chart in the format of its file's ending.
 pub fn write_chart(context: &Context, file: &Path, chart: &Chart) -> Outcome {
     let bytes = match chart_format(file)? {
         ChartFormat::Svg => chart.svg().as_bytes().to_vec(),
@@ -106,19 +102,16 @@ pub fn write_chart(context: &Context, file: &Path, chart: &Chart) -> Outcome {
     Ok(End::Done)
 }
 
-/// Format of a chart in a file.
 #[derive(Clone, Copy)]
 pub enum ChartFormat {
     Svg,
     Png,
 }
 
-/// Format of a chart, by the ending of its file.
 pub fn chart_format(file: &Path) -> Result<ChartFormat, CliError> {
     output::kind(file, &[("svg", ChartFormat::Svg), ("png", ChartFormat::Png)])
 }
 
-/// Runs `toile report`: writes the report of a study, and its PDF if that is asked for.
 pub fn report(context: &Context, arguments: &Report) -> Outcome {
     arguments.output.as_deref().map(|folder| output::folder(folder, &["html", "pdf", "csv"])).transpose()?;
     let store = context.store()?;
@@ -162,7 +155,6 @@ fn print_page(context: &Context, folder: &Path) -> Outcome {
     Ok(End::Done)
 }
 
-/// Writes a study's report and prints the path of its page.
 fn write_report(
     context: &Context,
     store: &Store,
@@ -177,7 +169,6 @@ fn write_report(
     tell_report(context, &folder.join(PAGE))
 }
 
-/// Name of the report's first page.
 const PAGE: &str = "index.html";
 /// Greatest number of letters that are told to be lacking in pictures.
 const LISTED_LETTERS: usize = 12;
@@ -201,13 +192,13 @@ pub fn bring_report(context: &Context, store: &mut Store, study: &Study, since_m
     Ok(())
 }
 
-/// Time of the last change of a file, ms since 1970 (UTC).
+/// Time since 1970 (UTC).
 fn modified_ms(path: &Path) -> Option<i64> {
     let modified = std::fs::metadata(path).and_then(|file| file.modified()).ok()?;
     i64::try_from(modified.duration_since(UNIX_EPOCH).ok()?.as_millis()).ok()
 }
 
-/// Prints the path of a report's page, relative to the current folder if the page lies in it.
+/// Path relative to the current folder if the page lies in it.
 fn tell_report(context: &Context, page: &Path) -> Result<(), CliError> {
     let lacking = lacking_letters();
     if !lacking.is_empty() {

@@ -14,7 +14,7 @@ use engine::{Ending, notification};
 use fit::Simulator;
 use store::{JobFilter, JobId, JobRow, Result, Status, Store, read};
 
-/// Label of a job, such as `tshirt S ii fem`.
+/// Such as `tshirt S ii fem`.
 pub fn label(garment: &str, size: &str, subject: &str, simulator: Simulator) -> String {
     format!("{garment} {size} {subject} {}", simulator.as_str())
 }
@@ -25,7 +25,6 @@ pub struct Ongoing {
     /// Words before every text.
     head: &'static str,
     is_quiet: bool,
-    /// Line of a terminal, once there is one.
     line: OnceCell<ProgressBar>,
     /// Part that was told last.
     part: Cell<&'static str>,
@@ -40,8 +39,7 @@ impl Ongoing {
     const SOON: Duration = Duration::from_secs(1);
     const LATER: Duration = Duration::from_secs(10);
 
-    /// Work of which nothing is told yet. Quiet work is never told.
-    #[must_use]
+    /// Nothing is told yet. Quiet work is never told.
     pub fn new(head: &'static str, is_quiet: bool) -> Self {
         let first = Instant::now() + Self::SOON;
         let (line, part) = (OnceCell::new(), Cell::new(""));
@@ -87,10 +85,8 @@ pub fn tell_end(context: &Context, ending: &Ending) {
     }
 }
 
-/// Steps of a job's bar.
 const STEPS: u64 = 1000;
 
-/// Progress of the jobs of a run.
 pub struct Progress {
     study: String,
     jobs: BTreeSet<JobId>,
@@ -99,7 +95,6 @@ pub struct Progress {
     quiet: bool,
 }
 
-/// Bars on a terminal.
 struct Bars {
     all: MultiProgress,
     total: ProgressBar,
@@ -151,14 +146,12 @@ impl Bars {
 }
 
 impl Progress {
-    /// Progress of some jobs of a study.
     pub fn new(context: &Context, study: &str, jobs: BTreeSet<JobId>) -> Self {
         let bars = (!context.quiet && !jobs.is_empty() && std::io::stderr().is_terminal())
             .then(|| Bars::new(jobs.len(), context.colour));
         Self { study: study.to_owned(), jobs, shown: BTreeMap::new(), bars, quiet: context.quiet }
     }
 
-    /// Reads the jobs and shows their changes.
     pub fn show(&mut self, store: &Store) -> Result<()> {
         let filter = JobFilter { study: Some(self.study.clone()), ..JobFilter::default() };
         for job in read::jobs(store, &filter)?.into_iter().filter(|job| self.jobs.contains(&job.id)) {
@@ -183,7 +176,6 @@ impl Progress {
         Ok(())
     }
 
-    /// Removes the bars.
     pub fn finish(&mut self) {
         if let Some(bars) = &mut self.bars {
             bars.running.values().for_each(ProgressBar::finish_and_clear);
@@ -192,7 +184,6 @@ impl Progress {
     }
 }
 
-/// Line about a job that ended.
 fn ended(job: &JobRow) -> String {
     let what = label(&job.garment, &job.size, &job.subject, job.simulator);
     let took = job.wall_ms.map(|ms| format!(" ({:.1} s)", ms as f64 / 1e3)).unwrap_or_default();

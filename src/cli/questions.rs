@@ -8,9 +8,6 @@ use wardrobe::seams::{Proposed, Question};
 
 /// Asks the questions that have choices but no answer yet, in order, until none is left. An empty line takes the marked
 /// answer.
-///
-/// # Errors
-/// When there is no terminal; those of `proposed`.
 pub fn ask(
     mut answers: Vec<(usize, char)>,
     proposed: impl Fn(&[(usize, char)]) -> Result<Proposed, CliError>,

@@ -8,7 +8,6 @@ use engine::{actions, why_no_retry};
 use spec::Selection;
 use store::{JobFilter, JobId, Store, StudyError, Table, Value, queue, read};
 
-/// Runs a queue command.
 pub fn run(context: &Context, command: &Queue) -> Outcome {
     let mut store = context.store()?;
     match command {
@@ -62,7 +61,6 @@ fn ids(store: &Store, jobs: &Jobs) -> Result<Vec<JobId>, CliError> {
     Ok(ids)
 }
 
-/// Table of jobs.
 fn list(store: &Store, study: Option<&str>, all: bool) -> Result<Table, StudyError> {
     if let Some(study) = study {
         read::study(store, study)?;

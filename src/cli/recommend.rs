@@ -9,7 +9,6 @@ use super::{CliError, End, Outcome, output};
 use fit::{Analysis, Answer, Estimate, Simulator, Without};
 use store::{PUBLISHED, Store, Table, Value, evidence, read};
 
-/// Runs `toile recommend`: prints the simulator to use for each garment and fit class.
 pub fn recommend(context: &Context, arguments: &Recommend) -> Outcome {
     let (mut store, name) = context.eased(&arguments.study)?;
     if name != PUBLISHED {
@@ -31,7 +30,6 @@ pub fn recommend(context: &Context, arguments: &Recommend) -> Outcome {
     Ok(End::Done)
 }
 
-/// Table of the answers, with or without numbers and sentences.
 fn table(answers: &[&Answer], numbers: bool, sentences: bool) -> Table {
     let text = |text: &str| Value::Text(text.to_owned());
     let real = |number: Option<f64>| number.map_or(Value::Null, Value::Real);

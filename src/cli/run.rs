@@ -17,14 +17,11 @@ use sim::Stage;
 use spec::{Limits, Selection, Study};
 use store::{JobFilter, JobId, JobRow, Status, Store, StudyError, Table, Value, files, read, sql};
 
-/// Time between two checks of the running jobs.
 const LOOK: Duration = Duration::from_millis(150);
-/// Number of jobs in a printed table of a plan.
+/// Jobs in a printed table of a plan.
 const TOGETHER: usize = 10_000;
-/// Time between two checks of a cluster.
 const SLURM_LOOK: Duration = Duration::from_secs(1);
 
-/// Runs `toile run`.
 pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
     let path = match (&arguments.command, &arguments.study) {
         (Some(command), _) => return runs::run(context, command),
@@ -92,7 +89,6 @@ pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
     Ok(if failed.is_empty() { End::Done } else { End::JobFailed })
 }
 
-/// Part of a study that flags select.
 pub fn selection(part: &StudyPart) -> Selection {
     Selection {
         simulators: part.sim.clone(),
@@ -159,7 +155,7 @@ fn slurm(
     Ok(interrupted.load(Ordering::Relaxed))
 }
 
-/// Starts the run and shows its progress until it ends. Returns true if interrupted.
+/// Shows the progress until the run ends. Returns true if interrupted.
 pub fn work(
     context: &Context,
     store: &mut Store,
@@ -191,7 +187,6 @@ pub fn work(
     Ok(interrupted.load(Ordering::Relaxed))
 }
 
-/// Table of the jobs in a plan, each with the reason why it would run or not.
 fn plan_table(study: &Study, planned: &[Planned]) -> Table {
     let columns = ["garment", "size", "subject", "sim", "repeat", "runs", "why"];
     let rows = planned.iter().map(|job| {

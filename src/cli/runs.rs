@@ -10,7 +10,6 @@ use results::{ChiPair, Record, record};
 use spec::{Change, Inputs};
 use store::{JobId, MetricsRow, Table, Value};
 
-/// Runs one of the commands on stored runs.
 pub fn run(context: &Context, command: &RunCommand) -> Outcome {
     match *command {
         RunCommand::Show { job } => show(context, JobId(job)),

@@ -9,7 +9,6 @@ use fit::Simulator;
 use results::{CrossSection, CutAt, CutCloth, GarmentWorn, assessment, cross_section};
 use store::{JobId, Store, Table, Value};
 
-/// Runs `toile section`: prints cross sections, or draws one.
 pub fn section(context: &Context, arguments: &Section) -> Outcome {
     arguments.output.as_deref().map(pictures::chart_format).transpose()?;
     let store = context.store()?;
@@ -50,13 +49,12 @@ pub fn section(context: &Context, arguments: &Section) -> Outcome {
     Ok(End::Done)
 }
 
-/// Results of a garment on one subject, to be cut.
 struct Drapes<'a> {
     worn: &'a GarmentWorn,
     jobs: Vec<JobId>,
 }
 
-/// Jobs of a garment on a subject that the arguments select, in the order of sizes.
+/// Selected jobs in the order of sizes.
 fn jobs(store: &Store, study: &str, worn: &GarmentWorn, arguments: &Section) -> Result<Vec<JobId>, CliError> {
     let simulator = arguments.sim.map(Simulator::from).or(worn.simulator);
     let Some(simulator) = simulator else { return Ok(Vec::new()) };
@@ -65,7 +63,7 @@ fn jobs(store: &Store, study: &str, worn: &GarmentWorn, arguments: &Section) -> 
     Ok(sizes.into_iter().filter(|(size, _)| is_wanted(size)).map(|(_, job)| job).collect())
 }
 
-/// Draws a section; the arguments must select exactly one.
+/// Arguments must select exactly one section.
 fn draw(context: &Context, store: &Store, cut: &[Drapes<'_>], at: &CutAt, file: &Path) -> Outcome {
     let mut drawn = Vec::new();
     for Drapes { worn, jobs } in cut {

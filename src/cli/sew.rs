@@ -17,10 +17,9 @@ use spec::patterns::Unit;
 use store::StudyError;
 use wardrobe::seams::{self, Workpiece};
 
-/// Time between two checks of the seam file.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// Runs `toile pattern sew`: sews a pattern once, or whenever its seam file changes.
+/// Sews once, or whenever the seam file changes.
 pub fn run(context: &Context, arguments: &SewFiles) -> Outcome {
     output::kind(&arguments.output, &[("png", ())])?;
     let is_left = Arc::new(AtomicBool::new(false));

@@ -9,17 +9,14 @@ use spec::patterns::Unit;
 use wardrobe::catalogue::{self, SpecGiven};
 use wardrobe::seams::{SpecReport, spec_report};
 
-/// Format of a specification that is written.
 #[derive(Clone, Copy)]
 enum SheetFormat {
     Csv,
     Xlsx,
 }
 
-/// Formats of specifications by the endings of files.
 const SHEETS: [(&str, SheetFormat); 2] = [("csv", SheetFormat::Csv), ("xlsx", SheetFormat::Xlsx)];
 
-/// Compares a sheet with a pattern.
 pub fn of_pattern(context: &Context, arguments: &PatternSpec) -> Outcome {
     let PatternSpec { path, sheet, seams, cut, flags, output } = arguments;
     let format = format_of(output.as_deref())?;

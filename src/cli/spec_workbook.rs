@@ -11,23 +11,18 @@ use wardrobe::seams::spec_sheet::SpecLine;
 const OUT: Color = Color::RGB(0x00F4_B6B0);
 /// Text of a row without a point.
 const PALE: Color = Color::RGB(0x0070_7070);
-/// Fill of heads.
 const HEAD: Color = Color::RGB(0x00E4_E7EC);
 /// Columns before those of the sizes.
 const HEADS: [&str; 5] = ["Code", "Description", "Point", "Tol -", "Tol +"];
-/// Widths of those columns, in characters.
+/// Widths in characters.
 const WIDTHS: [f64; 5] = [8.0, 42.0, 26.0, 8.0, 8.0];
 
 /// Makes a workbook of a specification: the rows with specification, flat and worn lengths and deviations, the steps
 /// between sizes, and the rows that are asked for.
-///
-/// # Errors
-/// When a text is longer than a cell can hold.
 pub fn bytes(report: &SpecReport) -> io::Result<Vec<u8>> {
     written(report).map_err(io::Error::other)
 }
 
-/// Formats of the cells of a workbook, by the unit of its lengths.
 struct Formats {
     mm_per_unit: f64,
     head: Format,
@@ -35,7 +30,6 @@ struct Formats {
     pale: Format,
     /// Specifications and tolerances.
     given: Format,
-    /// Lengths of the pattern.
     measured: Format,
     /// Deviations and steps.
     signed: Format,
@@ -62,7 +56,7 @@ impl Formats {
         }
     }
 
-    /// Writes a length in the unit of the workbook. Nothing is written for `None`.
+    /// Nothing is written for `None`.
     fn length(
         &self,
         sheet: &mut Worksheet,
@@ -108,7 +102,6 @@ fn heads(sheet: &mut Worksheet, report: &SpecReport, each: &[&str], formats: &Fo
     Ok(())
 }
 
-/// Writes code, description, point and tolerance of a row.
 fn head_of_row(sheet: &mut Worksheet, row: u32, line: &SpecLine, formats: &Formats) -> Result<(), XlsxError> {
     let style = if line.point.is_some() { &formats.text } else { &formats.pale };
     sheet.write_string_with_format(row, 0, &line.code, style)?;
@@ -118,7 +111,6 @@ fn head_of_row(sheet: &mut Worksheet, row: u32, line: &SpecLine, formats: &Forma
     formats.length(sheet, (row, 4), line.plus_mm, &formats.given)
 }
 
-/// Specification, lengths of the pattern and deviations.
 fn lengths(
     sheet: &mut Worksheet,
     report: &SpecReport,
@@ -145,7 +137,6 @@ fn lengths(
     Ok(())
 }
 
-/// Steps between sizes, specified and of the pattern.
 fn steps(
     sheet: &mut Worksheet,
     report: &SpecReport,
@@ -165,7 +156,6 @@ fn steps(
     Ok(())
 }
 
-/// Rows that are asked for.
 fn asked(sheet: &mut Worksheet, report: &SpecReport, formats: &Formats) -> Result<(), XlsxError> {
     for (column, head) in (0..).zip(["Code", "Description", "Why it is asked", "It may be"]) {
         sheet.write_string_with_format(0, column, head, &formats.head)?;

@@ -15,7 +15,6 @@ use store::files::{self, SourceFile};
 use store::{SizeKey, Store, StudyError, sql};
 use wardrobe::{Mode, StyleGiven, catalogue};
 
-/// Runs a study command.
 pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
     match command {
         StudyCommand::New {
@@ -170,7 +169,6 @@ fn is_of(store: &Store, sizes: &[SizeKey], patterns: &[String], seams: Option<&P
     Ok(is_same && pieces.iter().all(|piece| is_sewn(piece.seams.as_ref())))
 }
 
-/// Prints the study's representative that is nearest to a person, with its results.
 fn nearest(context: &Context, study: &Path, subject: &SubjectValues) -> Outcome {
     let store = context.store()?;
     let name = context.study_name(&store, study)?;

@@ -13,11 +13,9 @@ use spec::patterns::Unit;
 use store::{Table, Value, files};
 use wardrobe::{Opened, Wardrobe};
 
-/// Name of the JSON file beside the study.
 const DOCUMENT: &str = "audit.json";
 
-/// Runs `toile audit garments`: makes the study, runs its jobs, prints the outcomes. Exit code 3 if a drape has a
-/// fault.
+/// Exit code 3 if a drape has a fault.
 pub fn audit(context: &Context, arguments: &AuditGarments) -> Outcome {
     let folder = &arguments.output;
     output::folder(folder, &["toml", "json"])?;
@@ -68,7 +66,6 @@ fn wardrobe(arguments: &AuditGarments) -> Result<Wardrobe, CliError> {
     })
 }
 
-/// A row for each job.
 fn jobs_table(all: &[Dressed]) -> Table {
     let columns = ["garment", "body", "sim", "outcome", "inside mm", "short mm", "EI", "vertices", "s"];
     let row = |job: &Dressed| {
@@ -88,13 +85,12 @@ fn jobs_table(all: &[Dressed]) -> Table {
     Table::new(columns, all.iter().map(row))
 }
 
-/// Number rounded to `decimals`; null for `None`.
+/// Null for `None`.
 fn real(number: Option<f64>, decimals: i32) -> Value {
     let scale = 10_f64.powi(decimals);
     number.map_or(Value::Null, |number| Value::Real((number * scale).round() / scale))
 }
 
-/// Outcome of a job in words.
 fn outcome(job: &Dressed) -> String {
     match (&job.refused, &job.faults[..]) {
         (Some(why), _) => format!("refused: {why}"),

@@ -5,10 +5,7 @@ use std::io;
 use rust_xlsxwriter::{Format, Workbook, XlsxError};
 use store::{Table, Value};
 
-/// Makes a workbook with a sheet for each table. Headings are bold and stay in view.
-///
-/// # Errors
-/// When a table has more rows, or longer texts, than a sheet can hold.
+/// Headings are bold and stay in view.
 pub fn bytes(sheets: &[(&str, &Table)]) -> io::Result<Vec<u8>> {
     written(sheets).map_err(io::Error::other)
 }

@@ -4,18 +4,12 @@ use store::queue::{self, Event};
 use store::{JobId, Result, Status, Store, read};
 
 /// Cancels queued or running jobs; returns how many it cancelled.
-///
-/// # Errors
-/// When the database is open read-only or a job does not exist.
 pub fn cancel(store: &mut Store, ids: &[JobId]) -> Result<usize> {
     change(store, ids, &Event::Cancel, "cancelled")
 }
 
 /// Queues failed or cancelled jobs again, with the jobs whose results they need; returns the number of jobs queued. A
 /// job that has a result keeps it.
-///
-/// # Errors
-/// When the database is open read-only or a job does not exist.
 pub fn retry(store: &mut Store, ids: &[JobId]) -> Result<usize> {
     let mut all = ids.to_vec();
     let mut next = 0;
@@ -27,7 +21,7 @@ pub fn retry(store: &mut Store, ids: &[JobId]) -> Result<usize> {
     change(store, &all, &Event::Retry, "queued again")
 }
 
-/// Applies one event to several jobs, all in one transaction. Returns the number of jobs that it applied to.
+/// Works in one transaction. Returns the number of jobs that the event applied to.
 fn change(store: &mut Store, ids: &[JobId], event: &Event<'_>, done: &str) -> Result<usize> {
     store::lightly(store.writer()?, |transaction| {
         let mut changed = 0;
@@ -41,10 +35,7 @@ fn change(store: &mut Store, ids: &[JobId], event: &Event<'_>, done: &str) -> Re
     })
 }
 
-/// Sets the priority of jobs. A job of greater priority runs earlier.
-///
-/// # Errors
-/// When the database is open read-only.
+/// A job of greater priority runs earlier.
 pub fn set_priority(store: &mut Store, ids: &[JobId], priority: i64) -> Result<()> {
     store::lightly(store.writer()?, |transaction| {
         let mut statement = transaction.prepare_cached("UPDATE job SET priority = ? WHERE job_id = ?")?;
@@ -55,18 +46,11 @@ pub fn set_priority(store: &mut Store, ids: &[JobId], priority: i64) -> Result<(
     })
 }
 
-/// Pauses a study: its running jobs go on, and no other starts.
-///
-/// # Errors
-/// When the database is open read-only or there is no such study.
+/// Running jobs go on, and no other starts.
 pub fn pause(store: &mut Store, study: &str) -> Result<()> {
     set_paused(store, study, true)
 }
 
-/// Ends the pause of a study.
-///
-/// # Errors
-/// When the database is open read-only or there is no such study.
 pub fn resume(store: &mut Store, study: &str) -> Result<()> {
     set_paused(store, study, false)
 }
@@ -79,8 +63,7 @@ fn set_paused(store: &mut Store, study: &str, paused: bool) -> Result<()> {
     })
 }
 
-/// Reason why a job of this status cannot be retried; `None` where it can.
-#[must_use]
+/// `None` where the job can be retried.
 pub fn why_no_retry(status: Status) -> Option<&'static str> {
     match status {
         Status::Failed | Status::Cancelled => None,

@@ -19,28 +19,26 @@ use store::{InOrigin, JobId, Origin, Result};
 /// Square centimetres in a square metre.
 const CM2: f64 = 1e4;
 
-/// Girths, areas and gaps of body and cloth at a level.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Level {
     /// Level of the body, such as `chest`.
     pub level: String,
-    /// Height above the floor, m.
+    /// Height above the floor.
     pub height_m: f64,
-    /// Tape girth of trunk or limb, m.
+    /// Tape girth of trunk or limb.
     pub body_girth_m: f64,
-    /// Length of the cloth's outlines, m.
+    /// Length of the cloth's outlines.
     pub cloth_length_m: f64,
-    /// Area of trunk or limb, m2.
+    /// Area of trunk or limb.
     pub body_area_m2: f64,
-    /// Area between skin and cloth, m2.
+    /// Area between skin and cloth.
     pub air_m2: f64,
-    /// Gap between skin and cloth, m, in [`DIRECTIONS`] directions from the front towards the subject's right; `None`
-    /// where there is no cloth.
+    /// Gaps between skin and cloth in [`DIRECTIONS`] directions from the front towards the subject's right; `None`
+    /// without cloth.
     pub gaps_m: Vec<Option<f64>>,
 }
 
 impl Level {
-    /// Girths, areas and gaps of a section.
     pub fn of(section: &Section) -> Self {
         Self {
             level: section.site.level.clone(),
@@ -54,40 +52,33 @@ impl Level {
     }
 }
 
-/// Pressure on a region of the body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pressing {
     /// Name of the region, such as `lower_legs`.
     pub region: String,
-    /// Area under pressure, m2.
+    /// Area under pressure.
     pub area_m2: f64,
-    /// Mean pressure on that area, kPa.
     pub mean_kpa: f64,
-    /// Pressure that 1 % of the area exceeds, kPa.
+    /// Pressure that 1 % of the area exceeds.
     pub most_kpa: f64,
 }
 
-/// Assessment of a drape on its body.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Assessment {
-    /// Cross sections at the levels that the garment covers.
+    /// Levels that the garment covers.
     pub levels: Vec<Level>,
-    /// Balance: heights of hem and waist edge, lean of the side seams.
+    /// Heights of hem and waist edge, lean of the side seams.
     pub hang: Hang,
-    /// Folds, the longest first.
+    /// Longest first.
     pub folds: Vec<Fold>,
-    /// Pressure by region. Empty for Hybrid-GS, which does not bring cloth and body into equilibrium.
+    /// Empty for Hybrid-GS, which does not bring cloth and body into equilibrium.
     pub pressing: Vec<Pressing>,
-    /// Displacement of each opening, for a drape that was carried into another pose.
+    /// Displacements of openings, for a drape that was carried into another pose.
     #[serde(default)]
     pub drawn: Vec<Drawn>,
 }
 
 impl Assessment {
-    /// Assesses the drape of a garment.
-    ///
-    /// # Errors
-    /// When a triangle of the pattern mesh has no area, or the body no surface.
     pub(crate) fn of(body: &Body, garb: &Garb, drape: &Drape, simulator: Simulator) -> Result<Self> {
         let garment = garb.meshes.finest()?;
         let sewn = Sewn::new(garment, &garb.fabric, &drape.positions).origin(Origin::Measure)?;
@@ -118,18 +109,16 @@ impl Assessment {
 }
 
 impl Assessment {
-    /// Greatest pressure of all regions, kPa.
     pub fn most_kpa(&self) -> Option<f64> {
         self.pressing.iter().map(|region| region.most_kpa).reduce(f64::max)
     }
 
-    /// Height of the hem in front minus its height behind, m.
+    /// Height in front minus height behind.
     pub fn hem_front_over_back_m(&self) -> Option<f64> {
         self.hang.hem.and_then(|hem| Some(hem.front_m? - hem.back_m?))
     }
 }
 
-/// Measures the balance of a drape.
 pub fn hang(style: &Style, garment: &Garment, positions: &[V3]) -> Hang {
     let lines = style.hang_lines();
     let paths: Vec<&[PathPart]> =
@@ -141,7 +130,6 @@ pub fn hang(style: &Style, garment: &Garment, positions: &[V3]) -> Hang {
     on_body::hang(&hem, &waist, &placed.flatten().collect::<Vec<_>>())
 }
 
-/// Stores the assessment of a drape.
 pub(crate) fn write(transaction: &Transaction<'_>, id: JobId, assessment: &Assessment) -> Result<()> {
     let mut section = transaction.prepare_cached("INSERT INTO section VALUES (?, ?, ?, ?, ?, ?, ?)")?;
     let mut gap = transaction.prepare_cached("INSERT INTO section_gap VALUES (?, ?, ?, ?)")?;
@@ -178,17 +166,15 @@ pub(crate) fn write(transaction: &Transaction<'_>, id: JobId, assessment: &Asses
     Ok(())
 }
 
-/// A number of a balance.
 pub struct Quantity {
-    /// Name of the quantity, such as `hem_front`.
+    /// Such as `hem_front`.
     pub name: String,
-    /// Value, in `unit`.
     pub value: f64,
     /// `mm` or `deg`.
     pub unit: &'static str,
 }
 
-/// Numbers of a balance with their units: heights above the floor, differences of heights, angles.
+/// Heights above the floor, differences of heights, angles.
 pub fn quantities(hang: &Hang) -> Vec<Quantity> {
     let height = |name: String, m: f64| Quantity { name, value: mm(m), unit: "mm" };
     let mut found = Vec::new();

@@ -37,52 +37,47 @@ use wardrobe::seams::{self, Question};
 /// Size of each picture, pixels.
 const PICTURE: [u32; 2] = [480, 800];
 
-/// Request for a trial: one or more garments on one body.
+/// Trial of one or more garments on one body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attempt {
-    /// File of the body: a mesh (OBJ, PLY, STL, GLB) or measurements (TOML, SeamlyMe, Valentina, GarmentCode).
+    /// Mesh (OBJ, PLY, STL, GLB) or measurements (TOML, SeamlyMe, Valentina, GarmentCode).
     pub body: PathBuf,
     /// Unit of the mesh, where its height does not tell.
     pub body_unit: Option<LengthUnit>,
-    /// Sex of the body, where known.
     pub sex: Option<Sex>,
-    /// Garments that are worn, the inner first.
+    /// Inner garments first.
     pub layers: Vec<AttemptLayer>,
     /// Unit of the patterns, where their files name none.
     pub unit: Option<Unit>,
-    /// Seam allowance of pieces without a sew line, m, where there is no seam file.
+    /// Allowance of pieces without a sew line, where there is no seam file.
     pub allowance_m: f64,
-    /// Answers to the questions of a proposal of seams: number of the question, letter of the answer.
+    /// Numbers of the questions of a proposal of seams, with the letters of the answers.
     pub answers: Vec<(usize, char)>,
-    /// Simulator that drapes the garments.
     pub simulator: Simulator,
-    /// Edge length of the finest mesh, m.
+    /// Edge length of the finest mesh.
     pub edge_length_m: f64,
-    /// Number of simulations by FEM-GS. The first starts with the pieces as they are placed; the start of each other
-    /// one is varied slightly.
+    /// Number of simulations by FEM-GS. All but the first vary the start slightly.
     pub repeat: u32,
-    /// Pose in which the body is dressed; `None` for the pose in which it is built or scanned.
+    /// `None` for the pose in which the body is built or scanned.
     pub pose: Option<Pose>,
     /// Pose into which FEM-GS then carries the drape of a single garment.
     pub reach: Option<Pose>,
 }
 
-/// A garment of a trial.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AttemptLayer {
-    /// Pattern: a DXF file, a folder of them, or a GarmentCode specification.
+    /// DXF file, folder of DXF files, or GarmentCode specification.
     pub pattern: PathBuf,
-    /// Seam file of the pattern; without it a DXF pattern is sewn as proposed.
+    /// Without a seam file a DXF pattern is sewn as proposed.
     pub seams: Option<PathBuf>,
     /// Name of the size, where the pattern has several.
     pub size: Option<String>,
-    /// Name of a fabric of the program, or a TOML file with one.
+    /// Fabric of the program, or TOML file with one.
     pub fabric: String,
 }
 
-/// One measurement of a trial, with the columns of `v_chi`.
+/// Columns are those of `v_chi`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[expect(missing_docs, reason = "the columns of the view, which db/schema.sql describes")]
 pub struct TriedChi {
     pub stage: sim::Stage,
     pub measurement_no: u32,
@@ -98,9 +93,7 @@ pub struct TriedChi {
     pub chi_spread: Option<f64>,
 }
 
-/// Ease of a trial at one level.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[expect(missing_docs, reason = "the columns of `v_ease`, which db/schema.sql describes")]
 pub struct TriedEase {
     pub level: String,
     pub pattern_girth_mm: f64,
@@ -108,9 +101,8 @@ pub struct TriedEase {
     pub ease_mm: f64,
 }
 
-/// Girths of garment and body of a trial at one level, with the columns of `v_gap`.
+/// Columns are those of `v_gap`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[expect(missing_docs, reason = "the columns of the view, which db/schema.sql describes")]
 pub struct TriedGap {
     pub level: String,
     pub height_mm: f64,
@@ -119,9 +111,8 @@ pub struct TriedGap {
     pub shortfall_mm: f64,
 }
 
-/// Summary of chi over all measurements of a trial, with the columns of `v_metrics`.
+/// Summary of chi. Columns are those of `v_metrics`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[expect(missing_docs, reason = "the columns of the view, which db/schema.sql describes")]
 pub struct TriedErrors {
     pub n: usize,
     pub e_chi: f64,
@@ -130,9 +121,8 @@ pub struct TriedErrors {
     pub max_abs_error: f64,
 }
 
-/// State of the draped cloth of a trial, with the columns of `v_metrics`.
+/// Columns are those of `v_metrics`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[expect(missing_docs, reason = "the columns of the view, which db/schema.sql describes")]
 pub struct TriedCloth {
     pub vertices: usize,
     pub faces: usize,
@@ -146,9 +136,8 @@ pub struct TriedCloth {
     pub distortion: Option<f64>,
 }
 
-/// Result of a trial, with the columns of `v_metrics`.
+/// Columns are those of `v_metrics`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[expect(missing_docs, reason = "the columns of the view, which db/schema.sql describes")]
 pub struct Tried {
     pub garment: String,
     pub size: String,
@@ -160,17 +149,16 @@ pub struct Tried {
     #[serde(flatten)]
     pub cloth: TriedCloth,
     pub wall_ms: u64,
-    /// Greatest [`TriedChi::chi_spread`] of all measurements.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chi_spread_max: Option<f64>,
     pub chi: Vec<TriedChi>,
     pub ease: Vec<TriedEase>,
-    /// Girths of garment and body, by Hybrid-GS; empty for FEM-GS.
+    /// Empty for FEM-GS.
     pub gap: Vec<TriedGap>,
     /// Changes caused by the movement into the pose `reach`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reach: Option<Reached>,
-    /// Faults of the drape; empty where it has none.
+    /// Faults of the drape.
     pub problems: Vec<String>,
     /// Guesses that were made about the inputs.
     pub notes: Vec<String>,
@@ -179,11 +167,8 @@ pub struct Tried {
     pub files: Vec<(String, Vec<u8>)>,
 }
 
-/// Dresses a body in one garment, or in several on top of each other. `progress` receives the phase and the share done.
-/// Returns the result of each garment, the inmost first; the last holds the files of all.
-///
-/// # Errors
-/// When an input cannot be used: the message says what is accepted. A drape with faults is no error.
+/// Dresses a body in garments, the inmost first. `progress` receives the phase and the share done. The last result
+/// holds the files of all. A drape with faults is no error.
 pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<Vec<Tried>> {
     let started = Instant::now();
     check(asked)?;
@@ -249,7 +234,7 @@ fn check(asked: &Attempt) -> Result<()> {
     Ok(())
 }
 
-/// Reads a garment, with notes on the guesses made about it.
+/// Returns notes on the guesses made about the garment too.
 fn garb(asked: &Attempt, layer: &AttemptLayer) -> Result<(Garb, Vec<String>)> {
     let mut notes = Vec::new();
     let fabric = fabric(&layer.fabric)?;
@@ -259,7 +244,7 @@ fn garb(asked: &Attempt, layer: &AttemptLayer) -> Result<(Garb, Vec<String>)> {
 }
 
 impl Tried {
-    /// Result of a simulation, still without problems, notes and files.
+    /// Problems, notes and files are still empty.
     fn new(asked: &Attempt, Garb { style, fabric, .. }: &Garb, outcome: Outcome) -> Self {
         let Metrics { n, e_chi, sd_chi, ei, max_abs_error } = outcome.metrics;
         let gap: Vec<TriedGap> = outcome.closures.iter().map(TriedGap::of).collect();
@@ -351,7 +336,6 @@ fn spread(tried: &mut Tried, garment: &Garment, drapes: &[Drape]) {
     }
 }
 
-/// Monitor that hands progress to a function.
 struct Told<'a>(&'a mut dyn FnMut(&str, f64));
 
 impl Monitor for Told<'_> {
@@ -361,9 +345,6 @@ impl Monitor for Told<'_> {
 }
 
 /// Fabric of the program by its name, or from a TOML file.
-///
-/// # Errors
-/// When no fabric has the name, or the file is wrong.
 pub fn fabric(name: &str) -> Result<Fabric> {
     let path = Path::new(name);
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
@@ -375,7 +356,7 @@ pub fn fabric(name: &str) -> Result<Fabric> {
     library.into_iter().find(|fabric| fabric.name == name).ok_or_else(missing)
 }
 
-/// Returns the style of a layer: sewn by its seam file, by its own stitches, or as proposed where the proposal is sure.
+/// Sewn by its seam file, by its own stitches, or as proposed where the proposal is sure.
 fn style(asked: &Attempt, layer: &AttemptLayer, notes: &mut Vec<String>) -> Result<Style> {
     let size = layer.size.as_deref();
     if layer.seams.is_some() || SourceFile::read_pattern(&layer.pattern)?.holds_seams() {
@@ -398,7 +379,7 @@ fn style(asked: &Attempt, layer: &AttemptLayer, notes: &mut Vec<String>) -> Resu
     Ok(style)
 }
 
-/// Faults of a drape, each with the piece on which it is worst: numbers alone do not tell the place.
+/// Names the piece on which a fault is worst: numbers alone do not tell the place.
 fn problems(body: &Body, garment: &Garment, drape: &Drape) -> Vec<String> {
     let Drape { converged, residual, penetration_max_m, self_crossings, .. } = *drape;
     let faults = drape_faults(converged, residual, mm(penetration_max_m), self_crossings as i64);
@@ -413,7 +394,6 @@ fn problems(body: &Body, garment: &Garment, drape: &Drape) -> Vec<String> {
     faults.into_iter().map(with_spot).collect()
 }
 
-/// A body with the drapes of its garments.
 struct Dressed<'a> {
     body: &'a Body,
     garbs: &'a [Garb],
@@ -455,7 +435,7 @@ fn files(stem: &str, simulator: Simulator, dressed: &Dressed<'_>) -> Result<Vec<
     Ok(files)
 }
 
-/// Material of a layer: the simulator's usual one for the inmost, another colour for each other layer.
+/// Simulator's usual material for the inmost layer, another colour for each other one.
 fn material(simulator: Simulator, number: usize) -> Material {
     match (number, simulator) {
         (0, Simulator::Fem) => Material::fem(),
@@ -465,7 +445,7 @@ fn material(simulator: Simulator, number: usize) -> Material {
     }
 }
 
-/// Cloth on a body from four sides, as a PNG file.
+/// Returns a PNG file.
 fn four_views(body: &Body, cloths: &[TriMesh], materials: &[Material]) -> Result<Vec<u8>> {
     let worn = cloths.iter().zip(materials).map(|(cloth, material)| render::Layer::new(cloth, *material));
     let layers = [render::Layer::new(&body.mesh, Material::form())].into_iter().chain(worn).collect();

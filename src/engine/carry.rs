@@ -8,35 +8,27 @@ use spec::Parameters;
 use spec::versions::FIELD_SPACING_M;
 use store::{InOrigin, Origin, Result, StudyError};
 
-/// A drape to be carried into another pose of its body.
 pub(crate) struct Carry<'a> {
     /// Body in the pose in which it is built or scanned.
     pub upright: &'a Body,
     /// Pose of the drape, and pose to reach.
     pub poses: [Pose; 2],
-    /// Finest mesh of the garment, on which the drape is.
+    /// Finest mesh, on which the drape is.
     pub garment: &'a Garment,
-    /// Fabric of the garment.
     pub fabric: &'a Fabric,
-    /// Drape in the first pose.
     pub drape: &'a Drape,
     /// Parameters of FEM-GS that differ from their defaults.
     pub parameters: &'a Parameters,
 }
 
-/// A drape after it was carried into another pose.
 pub(crate) struct Carried {
-    /// Body in all poses on the way.
+    /// All poses on the way.
     pub bodies: Vec<Body>,
     /// Drape on the last of these bodies.
     pub drape: Drape,
 }
 
 impl Carry<'_> {
-    /// Carries the drape along.
-    ///
-    /// # Errors
-    /// When the body cannot stand in one of the poses, or the simulator refuses.
     pub fn run(&self, monitor: &mut dyn Monitor) -> Result<Carried> {
         let [from, to] = self.poses;
         let bodies = body::way(self.upright, from, to, sim::fem::carry::TURN_DEG).origin(Origin::Body)?;

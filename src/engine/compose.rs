@@ -15,44 +15,34 @@ use store::files::{self, SourceFile};
 use store::{Result, SizeKey, Store, StudyError};
 use wardrobe::{SizeRow, catalogue};
 
-/// Source of the pattern of a size.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PatternSource {
-    /// A size of the catalogue.
     Catalogue(SizeKey),
-    /// A style that the program drafts.
     Drafted(Model),
 }
 
 /// A size that a study may wear.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Wearable {
-    /// Name of the style, in the catalogue or of the draft.
     pub style: String,
-    /// Name of the size within the style.
     pub size: String,
-    /// Source of pattern and seams.
     pub source: PatternSource,
 }
 
-/// Request for a new study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NewStudy {
-    /// Name of the study and of its folder.
+    /// Name of the folder too.
     pub name: String,
     /// Folder that holds all studies.
     pub folder: PathBuf,
-    /// Names of subjects of the catalogue.
+    /// Subjects of the catalogue.
     pub subjects: Vec<String>,
-    /// Sizes that are worn; those of one style are adjacent.
+    /// Sizes of one style are adjacent.
     pub sizes: Vec<Wearable>,
-    /// Name of a fabric of the catalogue.
     pub fabric: String,
-    /// Simulators that drape every garment.
     pub simulators: Vec<Simulator>,
-    /// Intended fit of all garments; `None` for the default.
+    /// `None` for the default.
     pub fit: Option<Intended>,
-    /// Outfits of the styles.
     pub outfits: Vec<NewOutfit>,
 }
 
@@ -63,9 +53,7 @@ impl NewStudy {
     }
 }
 
-/// Sizes that a new study may wear: those of the catalogue, and those of drafted styles whose names the catalogue does
-/// not have.
-#[must_use]
+/// Sizes of the catalogue, and those of drafted styles whose names the catalogue does not have.
 pub fn wearables(sizes: &[SizeRow]) -> Vec<Wearable> {
     let of_catalogue = sizes.iter().map(|row| Wearable {
         style: row.style.clone(),
@@ -85,9 +73,6 @@ pub fn wearables(sizes: &[SizeRow]) -> Vec<Wearable> {
 }
 
 /// Writes a new study into a folder of its own and queues its jobs without running them. Returns the path of its file.
-///
-/// # Errors
-/// When the study lacks something, its folder exists, or a file cannot be written.
 pub fn create_study(store: &mut Store, new: &NewStudy) -> Result<PathBuf> {
     store.writer()?;
     check(new)?;
@@ -103,7 +88,7 @@ pub fn create_study(store: &mut Store, new: &NewStudy) -> Result<PathBuf> {
     Ok(path)
 }
 
-/// Files of a new study: patterns, seam files, `study.toml`.
+/// Patterns, seam files, `study.toml`.
 fn files_of(store: &Store, new: &NewStudy) -> Result<Vec<(String, Vec<u8>)>> {
     let mut files = Files::new();
     let mut garments = Vec::new();
@@ -129,7 +114,6 @@ fn files_of(store: &Store, new: &NewStudy) -> Result<Vec<(String, Vec<u8>)>> {
     Ok(files.into_iter().collect())
 }
 
-/// Outfit for the study file, with the sizes that are worn together.
 fn layered<'a>(new: &'a NewStudy, outfit: &'a NewOutfit) -> Result<Layered<'a>> {
     let refuse = |problem| StudyError::Refused { what: "study", name: new.name.clone(), problems: vec![problem] };
     let sizes = outfit.sizes(&new.chosen()).map_err(refuse)?;
@@ -139,7 +123,7 @@ fn layered<'a>(new: &'a NewStudy, outfit: &'a NewOutfit) -> Result<Layered<'a>> 
     Ok(Layered { name: &outfit.name, layers: outfit.layers.iter().map(String::as_str).collect(), sizes: odd })
 }
 
-/// Adds the files of a size that are not there yet.
+/// Adds only files that are not there yet.
 fn add_size<'a>(store: &Store, wearable: &'a Wearable, garment: &mut Worn<'a>, files: &mut Files) -> Result<()> {
     let mut add = |source: &SourceFile| place(files, "patterns", source);
     match wearable.source {
@@ -164,7 +148,6 @@ fn add_size<'a>(store: &Store, wearable: &'a Wearable, garment: &mut Worn<'a>, f
     Ok(())
 }
 
-/// Refuses a study that lacks something.
 fn check(new: &NewStudy) -> Result<()> {
     let is_plain = |c: char| c.is_alphanumeric() || "-_. ".contains(c);
     let is_name = !new.name.trim().is_empty() && !new.name.starts_with('.') && new.name.chars().all(is_plain);
@@ -182,7 +165,7 @@ fn check(new: &NewStudy) -> Result<()> {
     Err(StudyError::Refused { what: "study", name: new.name.clone(), problems })
 }
 
-/// Styles of a new study, each once, in order.
+/// Styles in order, each once.
 fn styles(new: &NewStudy) -> Vec<&str> {
     let mut seen = BTreeSet::new();
     new.sizes.iter().map(|wearable| wearable.style.as_str()).filter(|style| seen.insert(*style)).collect()

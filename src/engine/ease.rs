@@ -7,10 +7,10 @@ use pattern::Style;
 use pattern::pom::{Stand, WornLength};
 use pattern::style::PathPart;
 
-/// Distance below the elbow at which the forearm's girth is measured, m.
+/// Distance below the elbow at which the forearm's girth is measured.
 const FOREARM_BELOW_ELBOW_M: f64 = 0.045;
 
-/// Girth or length of a body at a level of a garment, m; `None` where the body has no dimension for the level.
+/// `None` where the body has no dimension for the level.
 pub fn body_length_m(girths: &Girths, level: &str) -> Option<f64> {
     let dimension = match level {
         "neck" => Dimension::NeckGirth,
@@ -29,7 +29,7 @@ pub fn body_length_m(girths: &Girths, level: &str) -> Option<f64> {
     girths.get(dimension)
 }
 
-/// Heights of a body's levels, and lengths along its arms.
+/// Heights of the levels, and lengths along the arms.
 pub fn stand(body: &Body) -> Stand {
     let mean = |pair: [V3; 2]| 0.5 * (pair[0] + pair[1]);
     let levels = &body.levels;
@@ -55,13 +55,12 @@ pub fn on(style: &Style, body: &Body) -> Vec<Ease> {
     on_all(style, &[body]).pop().unwrap_or_default()
 }
 
-/// Ease as by [`on`] for several bodies. The roles of the pieces are found only once.
+/// Ease as by [`on`], with the roles of the pieces found only once.
 pub fn on_all(style: &Style, bodies: &[&Body]) -> Vec<Vec<Ease>> {
     let stands: Vec<Stand> = bodies.iter().map(|body| stand(body)).collect();
     bodies.iter().zip(lengths_on(style, &stands)).map(|(body, lengths)| ease(&lengths, body)).collect()
 }
 
-/// Ease of a garment with these pattern lengths on a body.
 fn ease(lengths: &[Length], body: &Body) -> Vec<Ease> {
     let body_m = |level: &str| {
         let height_m = lengths.iter().find(|length| length.level == level).and_then(|length| length.height_m);
@@ -71,21 +70,18 @@ fn ease(lengths: &[Length], body: &Body) -> Vec<Ease> {
     fit::ease(levels, body_m, &Cuts::default())
 }
 
-/// Length of a garment at a level.
 pub struct Length {
-    /// Level of the body, such as `chest`.
     pub level: String,
-    /// Length of the pattern there, m.
     pub length_m: f64,
-    /// Height above the floor where the body is measured, m; `None` for the height of the level.
+    /// Height above the floor where the body is measured; `None` for the height of the level.
     pub height_m: Option<f64>,
     /// True if the cut holds the garment to the body there.
     pub is_held: bool,
-    /// Path on the pieces along which the length is measured; where half a girth is measured, the path of this half.
+    /// Path along which the length is measured; where half a girth is measured, the path of this half.
     pub path: Vec<PathPart>,
 }
 
-/// Length of a style at every level that it covers on a body with these heights. Lines of the seam file come first.
+/// Lengths at every level that a style covers, those along lines of the seam file first.
 pub fn lengths(style: &Style, stand: &Stand) -> Vec<Length> {
     lengths_on(style, std::slice::from_ref(stand)).pop().unwrap_or_default()
 }

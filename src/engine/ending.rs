@@ -10,10 +10,8 @@ use store::{INSIDE_M, JobFilter, JobId, JobRow, Result, Status, Store, read};
 /// Most letters of a notification; desktops cut longer ones.
 const LONGEST: usize = 200;
 
-/// Numbers of a run's jobs by their states at its end.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ending {
-    /// Name of the study.
     pub study: String,
     /// Jobs that were to run, by the state that they are in now.
     pub ran: BTreeMap<Status, usize>,
@@ -24,10 +22,6 @@ pub struct Ending {
 }
 
 impl Ending {
-    /// Reads the states of the planned jobs of a study.
-    ///
-    /// # Errors
-    /// When the database cannot be read.
     pub fn of(store: &Store, study: &str, planned: &[Planned]) -> Result<Self> {
         let jobs = read::jobs(store, &JobFilter { study: Some(study.to_owned()), ..JobFilter::default() })?;
         let rows: BTreeMap<JobId, &JobRow> = jobs.iter().map(|job| (job.id, job)).collect();
@@ -76,7 +70,6 @@ impl fmt::Display for Ending {
 
 /// Control sequences that ring and notify: OSC 9, which iTerm2, kitty, WezTerm, Ghostty and foot show and others ignore;
 /// then BEL, by which tmux and most desktops mark the window.
-#[must_use]
 pub fn notification(text: &str) -> String {
     let plain: String = text.chars().filter(|letter| !letter.is_control()).take(LONGEST).collect();
     format!("\x1b]9;{plain}\x07\x07")

@@ -16,19 +16,14 @@ use store::queue::{self, Event};
 use store::{JobId, Result, Status, Store, StudyError, columns, now_ms, read};
 use wardrobe::catalogue::revision::{self, By};
 
-/// Reason why a job runs, or need not run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Why {
-    /// The cell has no earlier job.
     New,
     /// An input differs from the latest earlier job of the cell.
     Changed {
-        /// That earlier job.
         since: JobId,
-        /// Inputs that differ.
         changes: Vec<Change>,
     },
-    /// The job is queued or running already.
     Waiting,
     /// The job failed or was cancelled before, with the same inputs.
     Again(Status),
@@ -37,8 +32,6 @@ pub enum Why {
 }
 
 impl Why {
-    /// True if the job is still to be run.
-    #[must_use]
     pub fn will_run(&self) -> bool {
         !matches!(self, Self::UpToDate(_))
     }
@@ -59,23 +52,15 @@ impl std::fmt::Display for Why {
     }
 }
 
-/// A job of the queue with its cell of the study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Planned {
-    /// Number of the job in the queue.
     pub id: JobId,
-    /// Cell of the study, which makes the specification of the job.
     pub cell: Cell,
-    /// Reason why the job runs, or need not run.
     pub why: Why,
     /// True if the job was the current one of its cell before.
     pub was_current: bool,
 }
 
-/// Queues the jobs of a study without working on them.
-///
-/// # Errors
-/// When the database is open read-only.
 pub fn queue(store: &mut Store, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
     let transaction = store::write(store.writer()?)?;
     let planned = enqueue(&transaction, study, selection)?;
@@ -149,7 +134,6 @@ fn chain(transaction: &Transaction<'_>, study: &Study, planned: &[Planned]) -> R
     Ok(())
 }
 
-/// Canonical path of a study file.
 fn home_of(study: &Study) -> PathBuf {
     study.path.canonicalize().unwrap_or_else(|_| study.path.clone())
 }
@@ -161,9 +145,6 @@ fn stored_home(connection: &Connection, name: &str) -> Result<Option<PathBuf>> {
 }
 
 /// Gives the stored results of a study to the file at its present place.
-///
-/// # Errors
-/// When the database is open read-only.
 pub fn move_home(store: &mut Store, study: &Study) -> Result<()> {
     let path = home_of(study);
     store.writer()?.execute("UPDATE study SET path = ? WHERE name = ?", params![path.to_string_lossy(), study.name])?;
@@ -213,7 +194,6 @@ pub(crate) fn store_study(transaction: &Transaction<'_>, study: &Study) -> Resul
     Ok(study_id)
 }
 
-/// Stores the target ease of each garment of a study.
 fn store_targets(transaction: &Transaction<'_>, study_id: i64, study: &Study) -> Result<()> {
     transaction.execute("DELETE FROM fit_target WHERE study_id = ?", [study_id])?;
     let mut statement = transaction.prepare_cached(
@@ -244,7 +224,7 @@ fn store_targets(transaction: &Transaction<'_>, study_id: i64, study: &Study) ->
     Ok(())
 }
 
-/// Names of a cell: garment, size and subject, simulator and repeat.
+/// Garment, size and subject; simulator; repeat.
 type Names<'a> = ([&'a str; 3], Simulator, u32);
 
 /// Removes cells that a study no longer has from its jobs and eases. Their results stay in the database.
@@ -292,8 +272,7 @@ fn retire(transaction: &Transaction<'_>, study_id: i64, study: &Study, cells: &[
     Ok(())
 }
 
-/// Finds or inserts the job of a specification and makes it the current job of its cell. Returns its number, the reason
-/// why it runs, and whether it was the current one before.
+/// Finds or inserts a job and makes it current. Returns why it runs, and true if it was the current one before.
 fn enqueue_one(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec) -> Result<(JobId, Why, bool)> {
     let hash = spec.inputs.hash();
     let same = transaction
@@ -340,7 +319,6 @@ fn latest_of_cell(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec) 
     Ok(transaction.prepare_cached(sql)?.query_row(cell, |row| row.get(0).map(JobId)).optional()?)
 }
 
-/// Makes a job of earlier inputs the current job of its cell again.
 fn make_current(transaction: &Transaction<'_>, id: JobId, current: Option<JobId>) -> Result<()> {
     if let Some(old) = current.filter(|&old| old != id) {
         supersede(transaction, old)?;
@@ -349,7 +327,6 @@ fn make_current(transaction: &Transaction<'_>, id: JobId, current: Option<JobId>
     Ok(())
 }
 
-/// Stores the limits that a job's study sets now.
 fn set_limits(transaction: &Transaction<'_>, id: JobId, spec: &JobSpec) -> Result<()> {
     let Limits { time_s, memory_mb } = spec.schedule.limits;
     let sql = "UPDATE job SET time_limit_s = ?1, memory_limit_mb = ?2
@@ -405,9 +382,6 @@ fn insert(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec, hash: &s
 }
 
 /// Reason why a job had no result yet: the inputs that differ from the latest earlier job of its cell.
-///
-/// # Errors
-/// When there is no such job.
 pub fn why(store: &Store, id: JobId) -> Result<Why> {
     read::job(store, id)?;
     let sql =
@@ -419,15 +393,10 @@ pub fn why(store: &Store, id: JobId) -> Result<Why> {
     Ok(Why::Changed { since, changes })
 }
 
-/// Inputs of a job, by name.
-///
-/// # Errors
-/// When the database cannot be read.
 pub fn inputs(store: &Store, id: JobId) -> Result<Inputs> {
     inputs_of(&store.reader, id)
 }
 
-/// The stored inputs of a job.
 pub(crate) fn inputs_of(connection: &Connection, id: JobId) -> Result<Inputs> {
     let mut statement = connection.prepare_cached("SELECT name, value FROM job_input WHERE job_id = ?")?;
     let inputs = statement.query_map([id.0], |row| Ok((row.get(0)?, row.get(1)?)))?;

@@ -6,36 +6,27 @@ use std::process::ExitStatus;
 use pattern::propose::Unwearable;
 use store::{Origin, StudyError};
 
-/// An error of the engine.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum EngineError {
-    /// Repeats of a trial by a simulator other than FEM-GS.
     #[error("--repeat is for --sim fem: only that starts from a place that can be varied")]
     RepeatWithoutFem,
-    /// A movement in a trial of an outfit, or by a simulator other than FEM-GS.
     #[error("--reach is for one garment and --sim fem: friction carries it along")]
     ReachWithoutFem,
-    /// Repeats of a trial of an outfit.
     #[error("--repeat is for one garment; accepted of an outfit: one drape")]
     RepeatOfOutfit,
-    /// An outfit by Hybrid-GS.
     #[error("Hybrid-GS drapes one garment at a time; FEM-GS (fem) drapes outfits")]
     HybridOutfit,
-    /// A pattern without a seam file whose proposed seams make no garment.
     #[error(
         "{}: {reason}; say --seams FILE (`toile pattern propose -o FILE` writes one to edit)",
         pattern.display()
     )]
     Unwearable { pattern: PathBuf, reason: Unwearable },
-    /// Two sizes of a study with the same inputs.
     #[error(
         "{garment}: sizes `{earlier}` and `{size}` on {subject} have the same inputs, a fault of Toile; nothing is queued"
     )]
     SameInputs { garment: String, earlier: String, size: String, subject: String },
-    /// A garment without a mesh.
     #[error("no mesh")]
     NoMesh,
-    /// A garment without a measurement.
     #[error("nothing to measure")]
     NothingToMeasure,
     /// A mesh whose number of measurements differs from that of the pattern.
@@ -44,53 +35,42 @@ pub(crate) enum EngineError {
          fault of Toile; nothing is stored"
     )]
     OtherCount { meshed: usize, flat: usize },
-    /// A mesh with a measurement that differs from that of the pattern.
     #[error(
         "`{meshed}` is {meshed_mm:.2} mm on the mesh, `{flat}` {flat_mm:.2} mm in the flat pattern: the mesh is not that of \
          this pattern and size, a fault of Toile; nothing is stored"
     )]
     OtherLength { meshed: String, meshed_mm: f64, flat: String, flat_mm: f64 },
-    /// A movement without a pose to go to.
     #[error("no pose to go to")]
     NoPose,
-    /// A file that is neither a job file nor a result file, as `kind` names it.
     #[error("{}: this is no {kind} file: {reason}", file.display())]
     OtherFile { kind: Origin, file: PathBuf, reason: serde_json::Error },
-    /// A job or result file whose layout has another version.
     #[error("{}: format {found}; accepted: {accepted}", file.display())]
     Format { kind: Origin, file: PathBuf, found: u32, accepted: u32 },
-    /// A job or result file that does not fit its layout.
     #[error("{}: {reason}", file.display())]
     Content { kind: Origin, file: PathBuf, reason: serde_json::Error },
     /// A result file whose job changed after it was written.
     #[error("{}: its inputs are not those it was made from", file.display())]
     OtherInputs { file: PathBuf },
-    /// A result file of a job that is not in the queue.
     #[error(
         "{}: this database has no such job: {garment} {size} on {subject} of study {study}; was it made by another version \
          of the program?",
         file.display()
     )]
     UnknownJob { file: PathBuf, study: String, garment: String, size: String, subject: String },
-    /// A memory limit that the system refuses to set.
     #[error("memory_limit_mb = {megabytes}: {reason}")]
     MemoryLimit { megabytes: u32, reason: rustix::io::Errno },
-    /// A job that reached its time limit.
     #[error("took longer than its time limit of {limit_s} s")]
     OutOfTime { limit_s: f64 },
-    /// A job that reached its memory limit.
     #[error("needed more than its memory limit of {megabytes} MB")]
     OutOfMemory { megabytes: u32 },
     /// A process that ended without a result.
     #[error("its process ended with {status}: {last_line}")]
     ProcessEnded { status: ExitStatus, last_line: String },
-    /// A panic of a stage, with its message.
     #[error("{0}")]
     Panic(String),
     /// A result that the database schema refuses.
     #[error("the result cannot be stored: {0}")]
     Unstorable(rusqlite::Error),
-    /// A program of Slurm that failed.
     #[error("{program}: {message}")]
     SlurmProgram { program: &'static str, message: String },
     /// Arrays of which Slurm no longer knows anything.
@@ -105,7 +85,6 @@ pub(crate) enum EngineError {
 }
 
 impl EngineError {
-    /// Part of the program that the message names.
     fn origin(&self) -> Origin {
         match self {
             Self::RepeatWithoutFem | Self::ReachWithoutFem | Self::RepeatOfOutfit | Self::HybridOutfit => Origin::Sim,

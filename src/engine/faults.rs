@@ -1,29 +1,24 @@
 //! Faults of a drape.
 
-/// Deepest penetration into the body that is no fault, mm.
+/// Deepest penetration into the body that is no fault.
 const PENETRATION_MM: f64 = 0.5;
 
-/// A fault of a drape.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
-    /// Kind of the fault.
     pub kind: FaultKind,
-    /// Description with its size.
+    /// Description with the size of the fault.
     pub words: String,
 }
 
-/// Kind of a fault of a drape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FaultKind {
     /// The drape did not come to rest.
     Moves,
-    /// The cloth lies inside the body.
     Inside,
     /// The cloth intersects itself.
     Crosses,
 }
 
-/// Returns the faults of a drape.
 pub fn drape_faults(converged: bool, residual: f64, penetration_mm: f64, self_crossings: i64) -> Vec<Fault> {
     let fault = |kind, words| Fault { kind, words };
     let mut faults = Vec::new();

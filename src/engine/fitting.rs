@@ -15,27 +15,20 @@ use sim::{self, Distortion, Drape, Monitor};
 use spec::Parameters;
 use store::{InOrigin, Origin, Result, StudyError};
 
-/// Greatest difference between lengths that count as equal, m.
+/// Greatest difference between lengths that count as equal.
 const SAME_LENGTH_M: f64 = 1e-6;
 
-/// A garment and the body that is to wear it.
 #[derive(Clone, Copy)]
 pub struct Fitting<'a> {
-    /// Body that is dressed.
     pub wearer: Wearer<'a>,
-    /// Garment that the body wears.
     pub garb: &'a Garb,
-    /// Simulator that drapes the garment.
     pub simulator: Simulator,
     /// Parameters of the simulator that differ from their defaults.
     pub parameters: &'a Parameters,
 }
 
 impl Fitting<'_> {
-    /// Drapes the garment.
-    ///
-    /// # Errors
-    /// When the simulator refuses; [`StudyError::Interrupted`] when the monitor cancels.
+    /// Fails with [`StudyError::Interrupted`] when the monitor cancels.
     pub fn simulate(&self, monitor: &mut dyn Monitor) -> Result<Drape> {
         let Self { wearer: Wearer { body, field }, garb, parameters, .. } = *self;
         let (meshes, fabric) = (&garb.meshes.0, &garb.fabric);
@@ -46,10 +39,7 @@ impl Fitting<'_> {
         drape.map_err(StudyError::sim)
     }
 
-    /// Measures a drape. The caller fills in [`Outcome::used`].
-    ///
-    /// # Errors
-    /// When the garment has no measurement, or a length of its mesh differs from the pattern.
+    /// Leaves [`Outcome::used`] to the caller.
     pub fn outcome(&self, drape: &Drape) -> Result<Outcome> {
         let (body, garb) = (self.wearer.body, self.garb);
         let garment = garb.meshes.finest()?;
@@ -105,7 +95,7 @@ impl Fitting<'_> {
         })
     }
 
-    /// Points of measure, flat and draped. The draped length is the flat one times the stretch of its path.
+    /// Draped lengths are the flat ones times the stretch of their paths.
     fn points(&self, garment: &Garment, drape: &Drape) -> Vec<MeasuredPoint> {
         let points = self.garb.style.points_of_measure();
         let paths: Vec<&[PathPart]> = points.iter().map(|found| found.path.as_slice()).collect();
@@ -131,11 +121,7 @@ impl Fitting<'_> {
         paths.iter().zip(style.laid(garment, paths)).map(stretch).collect()
     }
 
-    /// Ease of a drape at every level that the style covers, m. The draped girth is the flat one times the stretch of
-    /// the path along which it is measured.
-    ///
-    /// # Errors
-    /// When the garment has no mesh.
+    /// Ease at every level that the style covers, m. The draped girth is the flat one times the stretch of its path.
     pub fn eases_on(&self, drape: &Drape) -> Result<Vec<(String, f64)>> {
         let (body, garb) = (self.wearer.body, self.garb);
         let lengths = ease::lengths(&garb.style, &ease::stand(body));
@@ -149,7 +135,7 @@ impl Fitting<'_> {
     }
 }
 
-/// Checks that a mesh has the lengths of its pattern, since a mesh from the cache may be that of another pattern.
+/// Refuses a mesh with other lengths than its pattern: a mesh from the cache may be that of another pattern.
 pub(crate) fn check_lengths(garment: &Garment, style: &Style) -> std::result::Result<(), EngineError> {
     let (meshed, flat) = (&garment.measurements, &style.measurements);
     if meshed.len() != flat.len() {
@@ -169,13 +155,12 @@ pub(crate) fn check_lengths(garment: &Garment, style: &Style) -> std::result::Re
     }
 }
 
-/// Warning for a garment that FEM-GS distorts beyond the limit.
 fn distorted(distortion: &Distortion, limit: f64) -> Option<String> {
     (distortion.stretch > limit)
         .then(|| format!("distorted: {distortion}; the limit is {:.1} % (`fem.distortion_limit`)", 100.0 * limit))
 }
 
-/// Warning for a garment that had to be held up, by this force, N.
+/// Warning for a garment that had to be held up by this force.
 fn braced(force_n: f64) -> String {
     format!(
         "braced: it would slide off by itself, friction and all, and hangs from its top edge, which is held up with {force_n:.1} N; \

@@ -22,19 +22,15 @@ use store::owner::Owner;
 use store::queue::{self, Event};
 use store::{Access, InOrigin, JobId, Origin, Result, Status, Store, StudyError, columns, evidence, now_ms};
 
-/// A job that was handed out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HandedOut {
-    /// The job as it was queued.
     pub job: Planned,
-    /// Path of its job file; `None` where it need not run.
+    /// Job file; `None` where the job need not run.
     pub file: Option<PathBuf>,
 }
 
-/// Jobs, sorted by what merging did with their results.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Merged {
-    /// Jobs whose result was stored.
     pub stored: Vec<JobId>,
     /// Jobs that failed elsewhere and are now marked as failed.
     pub failed: Vec<JobId>,
@@ -44,19 +40,14 @@ pub struct Merged {
     pub running: Vec<JobId>,
 }
 
-/// Result of running a job file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ran {
     /// The result file.
     pub file: PathBuf,
-    /// Reason for the failure, if the job failed.
     pub error: Option<String>,
 }
 
 /// Queues a study and writes a file for each job that has to run. The same job always gets the same file name.
-///
-/// # Errors
-/// When the database is open read-only, a selection names what the study does not have, or a file cannot be written.
 pub fn hand_out(store: &mut Store, study: &Study, selection: &Selection, folder: &Path) -> Result<Vec<HandedOut>> {
     selection.check(study)?;
     let planned = enqueue::queue(store, study, selection)?;
@@ -79,10 +70,8 @@ pub fn hand_out(store: &mut Store, study: &Study, selection: &Selection, folder:
     Ok(handed)
 }
 
-/// Merges result files, given singly or as folders, in one transaction. A job that has a result here keeps it.
-///
-/// # Errors
-/// When the database is open read-only, or a file is no result of a job of this database: nothing is then stored.
+/// Merges result files, given singly or as folders, in one transaction: an unusable file leaves nothing stored. A job
+/// that has a result here keeps it.
 pub fn merge(store: &mut Store, paths: &[PathBuf]) -> Result<Merged> {
     let mut files = Vec::new();
     for path in paths {
@@ -105,9 +94,6 @@ pub fn merge(store: &mut Store, paths: &[PathBuf]) -> Result<Merged> {
 /// Runs a job file within its limits and writes its result to `output`, or beside the job file. The result of a job
 /// that fails is the reason. With `database` the process belongs to a run: it keeps products there, ends with its
 /// parent, and prints progress on standard output.
-///
-/// # Errors
-/// When the job file cannot be read, or the result cannot be written.
 pub fn run_job(path: &Path, output: Option<&Path>, database: Option<&Path>) -> Result<Ran> {
     let job: JobFile = read_json(path, Origin::Job)?;
     if database.is_some() {
@@ -144,7 +130,6 @@ pub fn run_job(path: &Path, output: Option<&Path>, database: Option<&Path>) -> R
     Ok(Ran { file, error })
 }
 
-/// All stored products of stages.
 fn products(connection: &Connection) -> Result<Vec<Product>> {
     let mut statement = connection.prepare("SELECT hash, kind, bytes FROM artefact ORDER BY hash")?;
     let product = |row: &rusqlite::Row<'_>| {
@@ -155,7 +140,7 @@ fn products(connection: &Connection) -> Result<Vec<Product>> {
     Ok(products)
 }
 
-/// Merges one result file; returns the name of its study.
+/// Returns the name of the file's study.
 fn merge_one(transaction: &Transaction<'_>, path: &Path, owner: &Owner, merged: &mut Merged) -> Result<String> {
     let result: ResultFile = read_json(path, Origin::Result)?;
     let spec = &result.spec;

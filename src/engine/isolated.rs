@@ -30,7 +30,6 @@ pub(crate) struct Isolated {
 }
 
 impl Isolated {
-    /// Creates the executor of a database and its pipeline.
     pub fn new(database: &Path, pipeline: std::sync::Arc<Pipeline>) -> Self {
         Self { database: database.to_owned(), pipeline }
     }
@@ -63,8 +62,7 @@ fn start(job: &Path, result: &Path, database: &Path) -> Result<Child> {
     command.spawn().map_err(StudyError::io(program))
 }
 
-/// Waits for a process to end, and kills it when its time is over or the run is cancelled. Returns its exit status and
-/// standard error.
+/// Kills the process when its time is over or the run is cancelled. Returns exit status and standard error.
 fn watch(mut child: Child, limits: &Limits, monitor: &mut dyn Monitor) -> Result<Exit> {
     let (out, mut errors) = (child.stdout.take(), child.stderr.take());
     let latest: Mutex<Option<Progress>> = Mutex::new(None);
@@ -110,7 +108,6 @@ fn watch(mut child: Child, limits: &Limits, monitor: &mut dyn Monitor) -> Result
     })
 }
 
-/// End of a process.
 struct Exit {
     status: ExitStatus,
     /// Standard error.
@@ -118,7 +115,6 @@ struct Exit {
 }
 
 impl Exit {
-    /// Error of a process that left no result.
     fn error(&self, limits: &Limits) -> EngineError {
         let Self { status, said } = self;
         let last = said.lines().rfind(|line| !line.trim().is_empty()).unwrap_or("it said nothing");
@@ -127,7 +123,6 @@ impl Exit {
     }
 }
 
-/// Error of a job with a memory limit whose process reported a failed allocation.
 fn out_of_memory(said: &str, limits: &Limits) -> Option<EngineError> {
     let megabytes = limits.memory_mb.filter(|_| NO_MEMORY.iter().any(|words| said.contains(words)))?;
     Some(EngineError::OutOfMemory { megabytes })

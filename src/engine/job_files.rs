@@ -9,14 +9,10 @@ use crate::outcome::{Outcome, Provenance};
 use spec::JobSpec;
 use store::{InOrigin, Origin, Result, StudyError};
 
-/// Version of the layout of these files.
 pub(crate) const FORMAT: u32 = 1;
-/// File name ending of a job file.
 pub(crate) const JOB: &str = ".job.json";
-/// File name ending of a result file.
 pub(crate) const RESULT: &str = ".result.json";
 
-/// A job that may run on another machine.
 #[derive(Serialize, Deserialize)]
 pub(crate) struct JobFile {
     pub format: u32,
@@ -25,7 +21,6 @@ pub(crate) struct JobFile {
     pub spec: JobSpec,
 }
 
-/// Result of a job from another machine.
 #[derive(Serialize, Deserialize)]
 pub(crate) struct ResultFile {
     pub format: u32,
@@ -46,25 +41,23 @@ pub(crate) struct Product {
     pub packed: String,
 }
 
-/// Writes a job file for a child process. Leaves out the provenance, which the parent knows.
+/// Leaves out the provenance, which the parent knows.
 pub(crate) fn write_job(path: &Path, spec: &JobSpec) -> Result<()> {
     let (study, provenance) = (String::new(), Provenance::default());
     write_json(path, &JobFile { format: FORMAT, study, provenance, spec: spec.clone() })
 }
 
-/// Reads the outcome of a job from its result file.
 pub(crate) fn read_outcome(path: &Path) -> Result<Outcome> {
     let result: ResultFile = read_json(path, Origin::Result)?;
     result.outcome.map_err(|message| StudyError::Elsewhere { message })
 }
 
-/// Path of the result that belongs to a job file.
 pub(crate) fn result_of(job: &Path) -> PathBuf {
     let name = job.file_name().unwrap_or_default().to_string_lossy().into_owned();
     job.with_file_name(format!("{}{RESULT}", name.strip_suffix(JOB).unwrap_or(&name)))
 }
 
-/// Result files in a folder, by name.
+/// Result files, sorted by name.
 pub(crate) fn results_in(folder: &Path) -> Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(StudyError::io(folder))? {
@@ -77,7 +70,6 @@ pub(crate) fn results_in(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-/// Reads a job file or a result file, as `kind` names it.
 pub(crate) fn read_json<T: for<'de> Deserialize<'de>>(path: &Path, kind: Origin) -> Result<T> {
     #[derive(Deserialize)]
     struct Head {

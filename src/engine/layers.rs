@@ -20,13 +20,9 @@ store::json_artefact!(Drapes);
 /// Garments on top of each other on one body, the inmost first.
 #[derive(Clone, Copy)]
 pub(crate) struct Ensemble<'a> {
-    /// Body that is dressed.
     pub wearer: Wearer<'a>,
-    /// Garments of the ensemble.
     pub garbs: &'a [Garb],
-    /// Simulator that drapes all garments.
     pub simulator: Simulator,
-    /// Parameters of the simulator that differ from their defaults.
     pub parameters: &'a Parameters,
 }
 
@@ -35,7 +31,6 @@ impl<'a> Ensemble<'a> {
         self.garbs.iter().map(|garb| Layer { garments: &garb.meshes.0, fabric: &garb.fabric }).collect()
     }
 
-    /// One garment on a body by itself.
     fn fitting<'b>(&self, wearer: Wearer<'b>, garb: &'b Garb) -> Fitting<'b>
     where
         'a: 'b,
@@ -43,10 +38,6 @@ impl<'a> Ensemble<'a> {
         Fitting { wearer, garb, simulator: self.simulator, parameters: self.parameters }
     }
 
-    /// Drapes all layers.
-    ///
-    /// # Errors
-    /// When the simulator refuses; [`StudyError::Interrupted`] when the monitor cancels.
     pub fn dress(&self, monitor: &mut dyn Monitor) -> Result<Vec<Drape>> {
         match (self.garbs, self.simulator) {
             ([garb], _) => Ok(vec![self.fitting(self.wearer, garb).simulate(monitor)?]),
@@ -58,9 +49,6 @@ impl<'a> Ensemble<'a> {
     }
 
     /// Measures the drape of a layer on the body and the layers beneath it.
-    ///
-    /// # Errors
-    /// When the garment has no measurement, or the surface beneath it is not closed.
     pub fn outcome(&self, number: usize, drapes: &[Drape]) -> Result<Outcome> {
         let garb = &self.garbs[number];
         if number == 0 {

@@ -17,87 +17,66 @@ use store::cache::Used;
 use store::owner::host;
 use store::queue::{self, Event};
 
-/// One measurement of a result.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Measured {
-    /// Stage at which the length was taken.
     pub stage: Stage,
-    /// Name of the measurement in the style.
     pub name: String,
-    /// Closed girth or open length.
     pub kind: MeasurementKind,
     /// True if the measurement runs along an edge that is in no seam.
     pub is_free_edge: bool,
     /// True if the simulator sets the length to that of the pattern by construction.
     pub is_controlled: bool,
-    /// Number of the measurement, with its lengths in the pattern and on the drape.
     pub chi: Chi,
 }
 
-/// A point of measure of a result.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MeasuredPoint {
     /// Name of the point of measure in tables and SQL.
     pub point: String,
-    /// Length flat on the pieces, m.
     pub flat_m: f64,
-    /// Length on the drape, m; where half a girth is measured, of this half. `None` for a distance that runs across no
-    /// cloth.
+    /// Length of this half, where half a girth is measured. `None` for a distance that runs across no cloth.
     pub draped_m: Option<f64>,
 }
 
-/// Outcome of a simulation, with all that is measured on its drape.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Outcome {
     /// True if the residual reached its tolerance with all seams closed.
     pub converged: bool,
     /// Measurements at every stage that the simulator tells apart.
     pub measured: Vec<Measured>,
-    /// Summary of the measurements of the last stage.
+    /// Summary of the last stage.
     pub metrics: Metrics,
-    /// Vertices of the welded mesh.
     pub vertices: usize,
-    /// Triangles of the welded mesh.
     pub faces: usize,
-    /// Iterations, summed over all mesh levels.
+    /// Sum over all mesh levels.
     pub iterations: u32,
     /// Rms residual force divided by the mean weight of a vertex.
     pub residual: f64,
-    /// Deepest penetration into the body, m.
     pub penetration_max_m: f64,
-    /// Greatest seam gap, m.
     pub seam_gap_max_m: f64,
     /// Edges that pierce the garment's own cloth.
     pub self_crossings: usize,
-    /// Residual and seam gap, step by step.
     pub history: Vec<Step>,
-    /// Ease at each fit level.
     pub eases: Vec<Ease>,
-    /// Levels of the body at which the garment is too small.
     #[serde(default)]
     pub too_small: Vec<TooSmall>,
-    /// Points of measure of the style.
     #[serde(default)]
     pub points: Vec<MeasuredPoint>,
-    /// Assessment of the drape on its body.
     #[serde(default)]
     pub worn: Assessment,
-    /// Hybrid-GS: girths of garment and body at each fit level.
+    /// Girths of garment and body at each fit level, by Hybrid-GS.
     pub closures: Vec<Closure>,
     /// FEM-GS: principal stretch less 1 that 1 % of the cloth exceeds.
     pub distortion: Option<f64>,
-    /// Warnings for the reader, as sentences; they go to the job's log.
+    /// Sentences for the reader; they go to the job's log.
     pub warnings: Vec<String>,
-    /// Products of stages that the job used.
     pub used: Vec<Used>,
 }
 
 /// Turns the specification of a job into its outcome. Implemented by the pipeline, and by closures in tests.
 pub trait Executor: Sync {
-    /// Runs one job. Not converging is an [`Outcome`], not an error.
-    ///
-    /// # Errors
-    /// Those of the stages; [`StudyError::Interrupted`] when the monitor asked to stop.
+    /// Not converging is an [`Outcome`], not an error. Fails with [`StudyError::Interrupted`] when the monitor asked to
+    /// stop.
     fn execute(&self, spec: &JobSpec, monitor: &mut dyn Monitor) -> Result<Outcome>;
 }
 
@@ -107,19 +86,16 @@ impl<F: Fn(&JobSpec, &mut dyn Monitor) -> Result<Outcome> + Sync> Executor for F
     }
 }
 
-/// Provenance of results, the same for all jobs of a run.
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct Provenance {
     /// Commit of the repository that holds the study file, and true if it has uncommitted changes.
     pub git: Option<(String, bool)>,
-    /// Host name of the machine.
     pub machine: String,
-    /// Version of the program.
     pub program_version: String,
 }
 
 impl Provenance {
-    /// Provenance of a study in a folder, with the commit that git names. No commit without a repository or git.
+    /// Provenance of a study. No commit without a repository or git.
     pub fn of(folder: &std::path::Path) -> Self {
         let git = |arguments: &[&str]| {
             let output = std::process::Command::new("git").arg("-C").arg(folder).args(arguments).output().ok()?;
@@ -131,7 +107,7 @@ impl Provenance {
         Self { git, ..Self::here() }
     }
 
-    /// Provenance of this machine and program, without a repository.
+    /// Provenance without a repository.
     pub fn here() -> Self {
         Self { git: None, machine: machine(), program_version: env!("CARGO_PKG_VERSION").to_owned() }
     }
@@ -153,7 +129,6 @@ pub(crate) fn finish(
     Ok(status)
 }
 
-/// Does the work of [`finish`] within a transaction.
 pub(crate) fn finish_in(
     transaction: &Transaction<'_>,
     id: JobId,
@@ -276,7 +251,6 @@ fn write_points(transaction: &Transaction<'_>, id: JobId, points: &[MeasuredPoin
     Ok(())
 }
 
-/// Stores the girths of garment and body at each level, by Hybrid-GS.
 fn write_closures(transaction: &Transaction<'_>, id: JobId, closures: &[Closure]) -> Result<()> {
     let mut statement = transaction.prepare_cached(
         "INSERT INTO gap (job_id, level, height_mm, body_girth_mm, garment_girth_mm) VALUES (?, ?, ?, ?, ?)",
@@ -289,7 +263,6 @@ fn write_closures(transaction: &Transaction<'_>, id: JobId, closures: &[Closure]
     Ok(())
 }
 
-/// Stores the ease of a size on a subject of a study.
 pub(crate) fn write_ease(
     transaction: &Transaction<'_>,
     study_id: i64,
@@ -311,7 +284,7 @@ pub(crate) fn write_ease(
     Ok(())
 }
 
-/// Description of this machine: host, cores, system.
+/// Host, cores, system.
 pub fn machine() -> String {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     format!("{}, {cores} cores, {} {}", host(), std::env::consts::OS, std::env::consts::ARCH)

@@ -6,12 +6,11 @@ use std::str::FromStr;
 
 use spec::file::LAYERS;
 
-/// An outfit of a new study, written `NAME=STYLE,STYLE`.
+/// Written `NAME=STYLE,STYLE`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NewOutfit {
-    /// Name of the outfit in results.
     pub name: String,
-    /// Names of the styles, the inner first.
+    /// Styles, the inner first.
     pub layers: Vec<String>,
 }
 
@@ -38,9 +37,6 @@ impl fmt::Display for NewOutfit {
 impl NewOutfit {
     /// Sizes that are worn together, each with one size of every layer: all that the sizes of the layers share, else the
     /// only one of each. `chosen` has styles with their sizes.
-    ///
-    /// # Errors
-    /// What is wrong with the outfit, as a line.
     pub fn sizes<'a>(&self, chosen: &[(&'a str, &'a str)]) -> Result<Vec<Vec<&'a str>>, String> {
         let distinct: BTreeSet<&String> = self.layers.iter().collect();
         if distinct.len() < self.layers.len() || !LAYERS.contains(&self.layers.len()) {

@@ -10,37 +10,28 @@ use sim::{Monitor, Progress, Step};
 use spec::Limits;
 use store::Result;
 
-/// Least time between two lines of progress.
 const LINES: Duration = Duration::from_millis(200);
-/// Names of the simulators' phases.
 const PHASES: [&str; 4] = ["sew", "popup", "settle", "drape"];
-/// Clock that measures a job's time against its limit.
 pub(crate) struct Clock {
     began: Instant,
     limit_s: Option<f64>,
 }
 
 impl Clock {
-    /// Starts the clock of a job.
     pub fn start(limits: &Limits) -> Self {
         Self { began: Instant::now(), limit_s: limits.time_s }
     }
 
-    /// True if the time limit has passed.
     pub fn is_over(&self) -> bool {
         self.limit_s.is_some_and(|limit_s| self.began.elapsed().as_secs_f64() > limit_s)
     }
 
-    /// Error of a job whose time is over.
     pub fn error(&self) -> EngineError {
         EngineError::OutOfTime { limit_s: self.limit_s.unwrap_or_default() }
     }
 }
 
 /// Applies a memory limit to this process.
-///
-/// # Errors
-/// When the system refuses.
 pub(crate) fn keep_to(limits: &Limits) -> Result<()> {
     let Some(megabytes) = limits.memory_mb else { return Ok(()) };
     let most = Some(u64::from(megabytes) * 1_000_000);
@@ -48,7 +39,6 @@ pub(crate) fn keep_to(limits: &Limits) -> Result<()> {
     Ok(set.map_err(|reason| EngineError::MemoryLimit { megabytes, reason })?)
 }
 
-/// Makes this process end when its parent ends.
 pub(crate) fn end_with_parent() {
     // Where the system cannot do this, the process ends with its job.
     let _ = set_parent_process_death_signal(Some(Signal::KILL));
@@ -80,7 +70,6 @@ impl Monitor for Teller {
     }
 }
 
-/// Progress of a job, as one line.
 #[derive(Serialize, Deserialize)]
 pub(crate) struct Line {
     phase: String,
@@ -89,7 +78,7 @@ pub(crate) struct Line {
 }
 
 impl Line {
-    /// Reads a line of progress; `None` for any other line.
+    /// `None` for any line that tells no progress.
     pub fn read(text: &str) -> Option<Progress> {
         let Self { phase, fraction, step } = serde_json::from_str(text).ok()?;
         let phase = PHASES.into_iter().find(|known| *known == phase).unwrap_or("works");

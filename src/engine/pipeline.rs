@@ -16,19 +16,15 @@ use spec::{JobSpec, Outfit, Person, versions};
 use store::cache::{Cache, Used};
 use store::{InOrigin, Origin, Result, StageKind};
 
-/// Stages with the cache of one database.
 pub struct Pipeline {
     cache: Cache,
 }
 
 impl Pipeline {
-    /// Creates stages that keep their products in a database.
-    #[must_use]
     pub fn new(database: &Path) -> Self {
         Self::over(Cache::new(database.to_owned()))
     }
 
-    /// Creates stages that use a cache.
     pub fn over(cache: Cache) -> Self {
         Self { cache }
     }
@@ -48,7 +44,6 @@ impl Pipeline {
         self.cache.get(StageKind::Mesh, &spec.inputs.stage_hash(StageKind::Mesh), || mesh(spec))
     }
 
-    /// Drape of a garment that is worn alone.
     fn drape(&self, spec: &JobSpec, monitor: &mut dyn Monitor) -> Result<(Arc<Drape>, Used)> {
         let hash = spec.inputs.stage_hash(StageKind::Drape);
         self.cache.get(StageKind::Drape, &hash, || match &spec.dressed {
@@ -99,11 +94,7 @@ impl Pipeline {
         Ok(Outcome { used, ..ensemble.outcome(outfit.layer, &all.0)? })
     }
 
-    /// Body of a subject, for its ease. A scan goes through the cache; a body from measurements is built faster than
-    /// read.
-    ///
-    /// # Errors
-    /// When the body cannot be built.
+    /// Takes a scan from the cache; a body from measurements is built faster than read.
     pub(crate) fn worn_body(&self, subject: &Subject) -> Result<Arc<Model>> {
         let Subject { id, person, .. } = subject;
         let make = || Ok(Model { body: person.body()? });
@@ -129,7 +120,6 @@ impl Executor for Pipeline {
     }
 }
 
-/// The garment of a job on its body.
 fn fitting<'a>(spec: &'a JobSpec, wearer: Wearer<'a>, garb: &'a Garb) -> Fitting<'a> {
     Fitting { wearer, garb, simulator: spec.simulator, parameters: &spec.parameters }
 }

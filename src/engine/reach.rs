@@ -19,7 +19,6 @@ const LEFT_OUT: f64 = 0.01;
 
 /// Displacement of an opening into the garment.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[expect(missing_docs, reason = "the columns say it: a mean and a greatest value along the opening")]
 pub struct ReachedOpening {
     pub opening: String,
     pub drawn_mm: f64,
@@ -28,7 +27,6 @@ pub struct ReachedOpening {
 
 /// A quantity before and after the movement, for a piece of the garment or a region of the body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[expect(missing_docs, reason = "the columns say it: a place, and the quantity there in both poses")]
 pub struct ReachedAt {
     pub place: String,
     pub before: f64,
@@ -38,38 +36,27 @@ pub struct ReachedAt {
 /// Changes of a garment by a movement, and its state in the pose reached.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reached {
-    /// Name of the pose reached.
     pub pose: String,
     /// Displacements of hem, cuffs, neckline and other closed free edges.
     pub opening: Vec<ReachedOpening>,
-    /// Tension in warp or weft that 1 % of each piece exceeds, N/m.
+    /// Tension in warp or weft that 1 % of each piece exceeds.
     pub tension_n_m: Vec<ReachedAt>,
-    /// Pressure that 1 % of the pressed area of each region of the body exceeds, kPa.
+    /// Pressure that 1 % of the pressed area of each region exceeds.
     pub pressure_kpa: Vec<ReachedAt>,
     /// Rms residual force divided by the mean weight of a vertex.
     pub residual: f64,
-    /// Deepest point inside the body, mm.
     pub penetration_max_mm: f64,
-    /// Edges that pierce the garment's own cloth.
     pub self_crossings: usize,
-    /// Faults of the drape; empty where it has none.
     pub problems: Vec<String>,
 }
 
-/// A dressed body after a movement.
 pub(crate) struct Moved {
-    /// Changes by the movement.
     pub reached: Reached,
-    /// Body in the pose that was reached.
     pub body: Body,
-    /// Drape in the pose that was reached.
     pub drape: Drape,
 }
 
 /// Carries the drape of a garment from one pose of its body into another, and measures it in both.
-///
-/// # Errors
-/// As [`Carry::run`].
 pub(crate) fn moved(
     upright: &Body,
     poses: [Pose; 2],
@@ -104,7 +91,6 @@ pub(crate) fn moved(
     Ok(Moved { reached, body: last.clone(), drape: after })
 }
 
-/// Greatest loads of a drape: on the cloth by piece, on the body by region.
 struct Loads {
     tension_n_m: Vec<(String, f64)>,
     pressure_kpa: Vec<(String, f64)>,
@@ -127,7 +113,7 @@ fn loads(body: &Body, garb: &Garb, drape: &Drape) -> Result<Loads> {
     })
 }
 
-/// Pairs the values before and after at each place; a missing value counts as 0.
+/// Pairs values of the same place; a missing value counts as 0.
 fn paired(before: Vec<(String, f64)>, after: &[(String, f64)]) -> Vec<ReachedAt> {
     let value_at = |values: &[(String, f64)], place: &str| {
         values.iter().find(|(known, _)| known == place).map_or(0.0, |(_, value)| *value)

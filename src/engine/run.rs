@@ -18,12 +18,10 @@ use spec::{Selection, Study, patterns};
 use store::{Access, Live, Problem, Result, Store, StudyError, evidence};
 use wardrobe::catalogue;
 
-/// Options of a run.
 #[derive(Clone, Debug, Default)]
 pub struct RunOptions {
-    /// Jobs of the study that take part.
     pub selection: Selection,
-    /// Number of worker threads, with one simulation each; `None` for the number of cores.
+    /// Number of threads, with one simulation each; `None` for the number of cores.
     pub workers: Option<usize>,
     /// Exchange through which a screen watches the run.
     pub live: Arc<Live>,
@@ -31,30 +29,23 @@ pub struct RunOptions {
 
 /// A run in the background. Dropping it stops the run: running jobs go back into the queue.
 pub struct Run {
-    /// Name of the study.
     pub study: String,
-    /// Jobs of the study, each with its reason.
     pub planned: Arc<Vec<Planned>>,
     stop: Arc<AtomicBool>,
     thread: Option<JoinHandle<Result<()>>>,
 }
 
 impl Run {
-    /// Asks the workers to stop; running jobs go back into the queue. Returns at once.
+    /// Running jobs go back into the queue. Returns at once.
     pub fn stop(&self) {
         self.stop.store(true, Ordering::Relaxed);
     }
 
-    /// True if all workers are done.
-    #[must_use]
     pub fn is_finished(&self) -> bool {
         self.thread.as_ref().is_none_or(JoinHandle::is_finished)
     }
 
-    /// Waits until the workers are done.
-    ///
-    /// # Errors
-    /// When the database failed; failed jobs are not errors here.
+    /// Waits until the workers are done. Failed jobs are no error.
     pub fn join(mut self) -> Result<()> {
         self.wait()
     }
@@ -76,20 +67,15 @@ impl Drop for Run {
     }
 }
 
-/// Reads and checks a study, by its file or folder, and the patterns and seam files that it names.
-///
-/// # Errors
-/// All problems of the study file at once; where there are none, all problems of the patterns.
+/// Reads and checks a study, by its file or folder, with its patterns and seam files. Reports all problems at once:
+/// those of the study file, else those of the patterns.
 pub fn load_study(store: &Store, path: &Path) -> Result<Study> {
     let study = Study::load(path, &catalogue::known(Some(&store.reader))?)?;
     check_patterns(&study)?;
     Ok(study)
 }
 
-/// Returns the jobs that a run of a study would queue. Nothing is written.
-///
-/// # Errors
-/// When the database is open read-only or a selection names what the study does not have.
+/// Jobs that a run would queue. Writes nothing.
 pub fn plan(store: &mut Store, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
     selection.check(study)?;
     let transaction = store::write(store.writer()?)?;
@@ -99,9 +85,6 @@ pub fn plan(store: &mut Store, study: &Study, selection: &Selection) -> Result<V
 }
 
 /// Queues a study and starts to work on it with the pipeline.
-///
-/// # Errors
-/// When the database is open read-only or a selection names what the study does not have.
 pub fn start(store: &mut Store, study: &Study, options: &RunOptions) -> Result<Run> {
     let pipeline = Arc::new(Pipeline::new(store.path()));
     let (database, of_study, stages) = (store.path().to_owned(), study.clone(), pipeline.clone());
@@ -112,18 +95,12 @@ pub fn start(store: &mut Store, study: &Study, options: &RunOptions) -> Result<R
 }
 
 /// Computes the ease of every size of a study on every subject, and stores it.
-///
-/// # Errors
-/// When the database is open read-only, or a body or a pattern cannot be made.
 pub fn update_ease(store: &mut Store, study: &Study) -> Result<()> {
     store.writer()?;
     store_ease(store.path(), study, &Pipeline::new(store.path()))
 }
 
 /// Starts a run as [`start`] does, with any executor.
-///
-/// # Errors
-/// When the database is open read-only or a selection names what the study does not have.
 pub fn start_with(
     store: &mut Store,
     study: &Study,
@@ -172,8 +149,7 @@ fn launch(
 /// Number of subjects whose eases are stored in one transaction.
 const TOGETHER: usize = 100;
 
-/// Computes the ease of every size of a study on every subject, and stores it. Builds each subject's body once for all
-/// garments.
+/// Builds each subject's body once for all garments.
 fn store_ease(database: &Path, study: &Study, pipeline: &Pipeline) -> Result<()> {
     let mut connection = store::open(database, Access::Write)?;
     let transaction = store::write(&mut connection)?;
@@ -211,7 +187,6 @@ struct WornStyle<'a> {
     subjects: BTreeSet<&'a str>,
 }
 
-/// Every size of a study.
 fn worn_styles(study: &Study) -> Result<Vec<WornStyle<'_>>> {
     let mut worn = Vec::new();
     for garment in &study.garments {
@@ -224,7 +199,6 @@ fn worn_styles(study: &Study) -> Result<Vec<WornStyle<'_>>> {
     Ok(worn)
 }
 
-/// Reads the style of a size of a study.
 fn style_of(garment: &GarmentEntry, size: &SizeFile) -> Result<Style> {
     let unit = garment.unit.as_deref().and_then(patterns::unit_of);
     patterns::read_style(&size.pattern, garment.seams.as_ref(), Some(&size.name), unit)

@@ -27,7 +27,6 @@ const SILENCE: Duration = Duration::from_secs(600);
 /// Part of Slurm's message about jobs that ended long ago.
 const FORGOTTEN: &str = "Invalid job id";
 
-/// States of a task that has not ended.
 const ACTIVE: [&str; 9] = [
     "PENDING",
     "RUNNING",
@@ -40,47 +39,36 @@ const ACTIVE: [&str; 9] = [
     "STAGE_OUT",
 ];
 
-/// Options of a study on Slurm.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SlurmOptions {
     /// Folder that all nodes see.
     pub folder: PathBuf,
-    /// Greatest number of tasks at once; `None` lets Slurm decide.
+    /// Greatest number at once; `None` lets Slurm decide.
     pub tasks: Option<usize>,
     /// More options of `sbatch`: `--time=10`, `--mem=2G`, `--partition=short`.
     pub sbatch: Vec<String>,
 }
 
-/// A study that runs on Slurm.
 pub struct SlurmRun {
-    /// Jobs of the study, with the reason for each.
     pub planned: Vec<Planned>,
     options: SlurmOptions,
     name: String,
     /// Jobs without a result.
     open: BTreeMap<JobId, OpenJob>,
-    /// Arrays that were submitted.
     arrays: Vec<String>,
-    /// Time since which Slurm does not answer about the arrays; `None` while it answers.
+    /// Start of the time without an answer about the arrays; `None` while Slurm answers.
     silent_since: Option<Instant>,
 }
 
-/// A job without a result.
 struct OpenJob {
-    /// Path of the job file.
     file: PathBuf,
-    /// Number of times that the job was submitted.
     tries: u32,
 }
 
-/// State of the submitted arrays at Slurm.
 #[derive(Debug, PartialEq, Eq)]
 enum Activity {
-    /// Slurm works on at least one array.
     Active,
-    /// All arrays have ended.
     Ended,
-    /// Slurm does not answer, with the reason.
     Unknown(String),
 }
 
@@ -92,10 +80,7 @@ impl Activity {
     }
 }
 
-/// Writes job files for a study. [`SlurmRun::step`] submits them.
-///
-/// # Errors
-/// As [`handout::hand_out`].
+/// Writes job files; [`SlurmRun::step`] submits them.
 pub fn start_slurm(
     store: &mut Store,
     study: &Study,
@@ -121,10 +106,7 @@ pub fn start_slurm(
 
 impl SlurmRun {
     /// Merges results, and submits jobs that have no result and are not at Slurm. Returns true once all jobs have
-    /// ended. Meant to be called about once a second.
-    ///
-    /// # Errors
-    /// When Slurm cannot be asked, or a job was given up.
+    /// ended, and fails when one was given up. Meant to be called about once a second.
     pub fn step(&mut self, store: &mut Store) -> Result<bool> {
         // Before the search for results: a task that ends in between is then found in the next step.
         let activity = self.activity();
@@ -150,10 +132,6 @@ impl SlurmRun {
         Err(EngineError::SlurmSilent { why: why.to_owned(), arrays: self.arrays.join(", ") }.into())
     }
 
-    /// Cancels the arrays at Slurm.
-    ///
-    /// # Errors
-    /// When Slurm cannot be asked.
     pub fn cancel(&mut self) -> Result<()> {
         if !self.arrays.is_empty() {
             slurm("scancel", &self.arrays, None)?;
@@ -161,8 +139,6 @@ impl SlurmRun {
         self.forget()
     }
 
-    /// Numbers of the arrays that were submitted.
-    #[must_use]
     pub fn arrays(&self) -> &[String] {
         &self.arrays
     }
@@ -255,7 +231,7 @@ impl SlurmRun {
     }
 }
 
-/// State of an array's last task in Slurm's words: `JobState=FAILED Reason=NonZeroExitCode ExitCode=1:0`.
+/// State of the last task in Slurm's words: `JobState=FAILED Reason=NonZeroExitCode ExitCode=1:0`.
 fn last_words(array: &str) -> String {
     let text = slurm("scontrol", &["show".to_owned(), "job".to_owned(), "-o".to_owned(), array.to_owned()], None);
     let text = text.unwrap_or_default();
@@ -265,7 +241,7 @@ fn last_words(array: &str) -> String {
     words.join(" ")
 }
 
-/// States of an array's tasks, one a line, from `scontrol`.
+/// States of the tasks, one a line, from `scontrol`.
 fn states_of(array: &str) -> Option<String> {
     let text =
         slurm("scontrol", &["show".to_owned(), "job".to_owned(), "-o".to_owned(), array.to_owned()], None).ok()?;
@@ -273,7 +249,6 @@ fn states_of(array: &str) -> Option<String> {
     (!states.is_empty()).then(|| states.join("\n"))
 }
 
-/// Runs one of Slurm's programs.
 fn slurm(program: &'static str, arguments: &[String], input: Option<&str>) -> Result<String> {
     let fail = |message: String| EngineError::SlurmProgram { program, message };
     let stdin = if input.is_some() { Stdio::piped() } else { Stdio::null() };

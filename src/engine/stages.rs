@@ -19,10 +19,8 @@ pub fn body_inputs(name: &str, person: &Person) -> Inputs {
     inputs
 }
 
-/// A body, as a product of the cache.
 #[derive(serde::Serialize, serde::Deserialize)]
 pub struct Model {
-    /// Mannequin.
     pub body: Body,
 }
 
@@ -31,20 +29,14 @@ pub struct Model {
 pub struct Meshes(pub Vec<Garment>);
 
 impl Meshes {
-    /// Meshes a style at all levels. `edge_length_m` is that of the finest, m.
-    ///
-    /// # Errors
-    /// When a piece cannot be meshed.
+    /// Meshes at all levels. `edge_length_m` is that of the finest.
     pub fn of(style: &Style, edge_length_m: f64) -> Result<Self> {
         let edges = sim::fem::level_edges(edge_length_m).into_iter();
         let meshes = edges.map(|edge| style.mesh(edge).origin(Origin::Mesh));
         Ok(Self(meshes.collect::<Result<_>>()?))
     }
 
-    /// Returns the finest mesh, on which results are measured.
-    ///
-    /// # Errors
-    /// When there is no mesh.
+    /// Mesh on which results are measured.
     pub fn finest(&self) -> Result<&Garment> {
         Ok(self.0.last().ok_or(EngineError::NoMesh)?)
     }
@@ -55,34 +47,22 @@ store::json_artefact!(Model, Meshes);
 /// A garment that is ready to be draped.
 #[derive(Clone)]
 pub struct Garb {
-    /// Style of its size.
     pub style: Style,
-    /// Meshes of its pieces, coarse to fine.
     pub meshes: Arc<Meshes>,
-    /// Fabric of its pieces.
     pub fabric: Fabric,
 }
 
 impl Garb {
-    /// Reads the style of a job's garment and adds its meshes.
-    ///
-    /// # Errors
-    /// When the pattern cannot be read or sewn.
     pub fn of(spec: &JobSpec, meshes: Arc<Meshes>) -> Result<Self> {
         Ok(Self { style: style(spec)?, meshes, fabric: spec.fabric.clone() })
     }
 }
 
-/// Reads the style of a job's size.
-///
-/// # Errors
-/// When the pattern cannot be read or sewn.
 pub fn style(spec: &JobSpec) -> Result<Style> {
     let unit = spec.unit.as_deref().and_then(patterns::unit_of);
     patterns::read_style(&spec.pattern, spec.seams.as_ref(), Some(&spec.size), unit)
 }
 
-/// Meshes a job's garment, coarse to fine.
 pub(crate) fn mesh(spec: &JobSpec) -> Result<Meshes> {
     let style = style(spec)?;
     Meshes::of(&style, spec.edge_length_m)

@@ -22,7 +22,6 @@ use store::queue::{self, Event};
 use store::{Access, JobFilter, JobId, Origin, Result, Status, Store, StudyError, Value, read, sql};
 use wardrobe::catalogue;
 
-/// A store in a folder of its own.
 struct Bench {
     _folder: tempfile::TempDir,
     path: PathBuf,
@@ -37,7 +36,6 @@ impl Bench {
         Self { _folder: folder, path, store }
     }
 
-    /// Runs a study to its end.
     fn run(&mut self, study: &Study, workers: usize, executor: impl Executor + Send + 'static) -> Vec<Planned> {
         let options = RunOptions { workers: Some(workers), ..RunOptions::default() };
         let run = run::start_with(&mut self.store, study, &options, Arc::new(executor)).expect("queued");
@@ -56,7 +54,7 @@ fn source(name: &str, text: &str) -> SourceFile {
     SourceFile { name: name.to_owned(), bytes: text.as_bytes().into() }
 }
 
-/// A study of two sizes on two subjects.
+/// Two sizes on two subjects.
 fn study(density_kg_m2: f64) -> Study {
     let subject = |id: &str, stature_m: f64| Subject {
         id: id.to_owned(),
@@ -158,7 +156,6 @@ fn quick(spec: &JobSpec, _monitor: &mut dyn Monitor) -> Result<Outcome> {
     Ok(outcome(spec))
 }
 
-/// Waits for something another thread does.
 fn until(what: &str, mut holds: impl FnMut() -> bool) {
     let end = Instant::now() + Duration::from_secs(20);
     while !holds() {
@@ -495,7 +492,6 @@ fn a_query_can_be_stopped() {
     });
 }
 
-/// Eases of the sizes on everybody, mm: S is tight at the hip, M loose at the chest by less.
 #[test]
 fn every_contract_view_answers() {
     let mut bench = Bench::new();

@@ -14,32 +14,27 @@ use pattern::{Garment, Role};
 use sim::cloth::law::Fibre;
 use sim::{Fabric, sewing};
 
-/// Least shortfall that is told, m: people and patterns are measured to 5 mm.
+/// Least shortfall that is told: people and patterns are measured to 5 mm.
 const LEAST_M: f64 = 5e-3;
 /// Tension round the trunk up to which cloth is worn stretched, N/m: a third of a kilopascal on a waist of 0.9 m, far
 /// below what a waistband presses with. Light cotton stretches by 2 % under it, an interlock by two thirds.
 const WORN_N_M: f64 = 50.0;
-/// Distance of the planes that are tried above and below a level, m.
+/// Distance of the planes that are tried above and below a level.
 const STEP_M: f64 = 10e-3;
 /// Directions from the axis of the trunk, in each of which a ring must lie.
 const DIRECTIONS: usize = 72;
 
-/// Level of the body at which a garment is too small.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct TooSmall {
-    /// Body level (`chest`, `hip`, ...).
     pub level: String,
-    /// Height of the plane, m.
     pub height_m: f64,
-    /// Tape girth of the body there, m.
+    /// Tape girth of the body.
     pub body_girth_m: f64,
-    /// Length on the pattern of the cloth that goes round the body there, m.
+    /// Length on the pattern of the cloth that goes round the body.
     pub garment_girth_m: f64,
 }
 
 impl TooSmall {
-    /// Girth that the garment lacks, m.
-    #[must_use]
     pub fn shortfall_m(&self) -> f64 {
         self.body_girth_m - self.garment_girth_m
     }
@@ -54,7 +49,6 @@ impl fmt::Display for TooSmall {
 
 /// Levels at which a draped garment is too small, from the chest down: at the level itself, or, where no cloth goes round
 /// it, where the most is lacking nearer to this level than to its neighbours. `positions` in m.
-#[must_use]
 pub fn too_small(body: &Body, garment: &Garment, fabric: &Fabric, positions: &[V3]) -> Vec<TooSmall> {
     let levels = &body.levels;
     let named = [
@@ -92,7 +86,7 @@ pub fn too_small(body: &Body, garment: &Garment, fabric: &Fabric, positions: &[V
     found.into_iter().flatten().collect()
 }
 
-/// Tension of cloth that is stretched across its grain to the girth of the body, N/m.
+/// Tension of cloth stretched across its grain to the girth of the body.
 fn tension_n_m(fabric: &Fabric, found: &TooSmall) -> f64 {
     let stretch = found.body_girth_m / found.garment_girth_m;
     let law = match fabric.stretched {
@@ -109,7 +103,6 @@ struct Trunk<'a> {
     triangles: Vec<[usize; 3]>,
     /// Sewn vertex of each vertex.
     sewn: Vec<usize>,
-    /// Axis of the trunk.
     axis: V3,
 }
 
@@ -119,7 +112,7 @@ struct Cut {
     edges: [[usize; 2]; 2],
     /// Directions of the ends from the axis of the trunk, radians.
     angles: [f64; 2],
-    /// Length on the pattern, m.
+    /// Length on the pattern.
     flat_m: f64,
 }
 
@@ -130,7 +123,7 @@ impl<'a> Trunk<'a> {
         Self { garment, positions, triangles, sewn: sewing::welded(garment), axis: body.skeleton.at(Joint::Waist) }
     }
 
-    /// Length on the pattern of the shortest ring that a level plane cuts, m. `None` without a ring.
+    /// Length on the pattern of the shortest ring that a level plane cuts; `None` without a ring.
     fn ring_m(&self, height_m: f64) -> Option<f64> {
         let cuts: Vec<Cut> = self.triangles.iter().filter_map(|triangle| self.cut(triangle, height_m)).collect();
         let rings = connected(&cuts).into_iter().filter(|part| goes_round(part.iter().map(|&cut| &cuts[cut])));
@@ -208,7 +201,7 @@ mod tests {
     use serde_json::{Value, json};
     use sim::fabric;
 
-    /// A tube of two panels of this girth, cm, 30 cm long.
+    /// Tube of two panels, 30 cm long.
     fn tube(girth_cm: f64) -> Garment {
         let half = 0.5 * girth_cm;
         let edges: Vec<Value> = (0..4).map(|k| json!({ "endpoints": [k, (k + 1) % 4] })).collect();

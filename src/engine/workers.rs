@@ -28,7 +28,6 @@ use store::{Access, JobId, JobProgress, Live as LiveView, Result, StudyError, ev
 /// Time between two rounds of the pump, and between two tries of a worker to claim a job.
 const TICK: Duration = Duration::from_millis(200);
 
-/// A job that a worker runs.
 #[derive(Default)]
 struct Live {
     progress: Mutex<Option<JobProgress>>,
@@ -40,7 +39,6 @@ struct Live {
 /// takes less than 5 % of a run.
 const JUDGED_SHARE: u32 = 20;
 
-/// One run of the planned jobs by this process.
 struct Run<'a> {
     database: &'a Path,
     study: &'a Study,
@@ -58,19 +56,14 @@ struct Run<'a> {
     has_news: AtomicBool,
 }
 
-/// Jobs to be run.
 pub(crate) struct Work<'a> {
-    /// Study whose cells the jobs are.
     pub study: &'a Study,
-    /// Jobs of the study, in the order of its cells.
+    /// Jobs in the order of the study's cells.
     pub jobs: &'a [Planned],
 }
 
-/// Runs jobs until none of them is queued or running, or until `stop`. Waits for those that other processes run. On
-/// `stop`, running jobs go back into the queue.
-///
-/// # Errors
-/// When the database fails: the run stops, and its jobs stay queued. A job that fails is no error here.
+/// Runs jobs until none is queued or running, those of other processes included, or until `stop`, which puts running
+/// jobs back into the queue. A job that fails is no error.
 pub(crate) fn run(
     database: &Path,
     work: &Work,
@@ -159,7 +152,7 @@ impl Run<'_> {
         written
     }
 
-    /// Stores the outcome of a job. The job fails if the schema refuses the result, for example a NaN.
+    /// A result that the schema refuses, for example with a NaN, fails the job.
     fn finish(&self, connection: &mut Connection, id: JobId, spec: &JobSpec, result: &Result<Outcome>) -> Result<()> {
         let owner = self.owner.as_str();
         match outcome::finish(connection, id, spec, owner, result, &self.provenance) {
@@ -191,7 +184,6 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Renews heartbeats and progress of running jobs; marks jobs that this process no longer holds.
     fn report(&self, connection: &mut Connection, live: &[(JobId, Arc<Live>)]) -> Result<()> {
         let transaction = store::write(connection)?;
         for (id, live) in live {
@@ -231,7 +223,6 @@ fn write_progress(connection: &Connection, id: JobId, progress: &JobProgress) ->
     Ok(())
 }
 
-/// The monitor of a running job.
 struct Reporter<'a> {
     id: JobId,
     live: &'a Live,
@@ -262,7 +253,6 @@ fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Message of a panic.
 fn panic_text(panic: &(dyn std::any::Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "a panic without a message".into())

@@ -15,7 +15,6 @@ pub enum Shown {
 
 impl Shown {
     /// Name in tables and reports, such as `FEM-GS drape`.
-    #[must_use]
     pub fn words(self) -> &'static str {
         match self {
             Self::FemDrape => "FEM-GS drape",
@@ -25,9 +24,7 @@ impl Shown {
     }
 }
 
-/// Chooses the picture: the gap map of a garment smaller than the body, otherwise the drape of the simulator that is
-/// recommended for the fit.
-#[must_use]
+/// Chooses the gap map for a garment smaller than the body, otherwise the drape of the recommended simulator.
 pub fn shown(recommended: Simulator, is_undersized: bool) -> Shown {
     match (is_undersized, recommended) {
         (true, _) => Shown::HybridGap,

@@ -4,29 +4,23 @@
 /// Quantity of a garment that should lie in a band.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Goal {
-    /// Present value.
     pub value: f64,
     /// Derivative with respect to each handle.
     pub sensitivity: Vec<f64>,
-    /// Least and greatest wanted value.
     pub band: [f64; 2],
-    /// Compliance of the band, for a quantity that scatters: missing the band by `m` costs `m^2 / gives`, to be added
-    /// to the squares of the scaled changes, or to the cost of the handles. `None` if the band must be met whatever the
-    /// change.
+    /// Compliance of the band: missing it by `m` costs `m^2 / gives`, beside the squares of the scaled changes or the
+    /// cost of the handles. `None` if the band must be met whatever the change.
     pub gives: Option<f64>,
 }
 
-/// A change of handles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
     /// Amount of each handle, in its unit.
     pub amounts: Vec<f64>,
-    /// Value of each goal after the change.
     pub values: Vec<f64>,
 }
 
-/// Ratio of the stiffness of a goal to that of the handles. A goal within the limits is then missed by a ten-thousandth
-/// of the change that it asks for.
+/// Stiffness of a goal / that of the handles: a goal within the limits is missed by a ten-thousandth of the change.
 const FIRMNESS: f64 = 1e4;
 /// Greatest number of sweeps over all constraints. Each sweep reduces the error by a constant factor.
 const SWEEPS: usize = 20_000;
@@ -38,7 +32,6 @@ const STILL: f64 = 1e-12;
 ///
 /// Solves the dual quadratic programme by coordinate ascent (Hildreth's method): each constraint in turn takes the
 /// multiplier, at least 0, that meets it exactly. Goals have a compliance, limits have none.
-#[must_use]
 pub fn least_change(goals: &[Goal], limits: &[[f64; 2]], scale: &[f64]) -> Change {
     let rows = constraints(goals, limits, scale);
     let mut h = vec![0.0; scale.len()];
@@ -83,7 +76,6 @@ const MOST_HANDLES: usize = 7;
 ///
 /// Searches the sets by branch and bound: a set whose costs reach those of the best one is not searched further, nor
 /// one that misses a goal even if all handles that may still join move to their limits.
-#[must_use]
 pub fn fewest(goals: &[Goal], limits: &[[f64; 2]], costs: &[f64]) -> Change {
     let asked = goals;
     let scale: Vec<f64> = limits.iter().map(|limit| limit[1].max(-limit[0])).collect();
@@ -105,7 +97,6 @@ pub fn fewest(goals: &[Goal], limits: &[[f64; 2]], costs: &[f64]) -> Change {
     search.best.map_or(all, |(_, change)| change)
 }
 
-/// Solves for the amounts of a set of handles. All others stay.
 fn least_of(set: &[usize], goals: &[Goal], limits: &[[f64; 2]], scale: &[f64]) -> Change {
     let pick = |all: &[f64]| -> Vec<f64> { set.iter().map(|handle| all[*handle]).collect() };
     let own: Vec<Goal> =
@@ -117,8 +108,6 @@ fn least_of(set: &[usize], goals: &[Goal], limits: &[[f64; 2]], scale: &[f64]) -
     Change { amounts, values: change.values }
 }
 
-/// Cost of a change: that of its handles, their amounts as shares of their limits, and that of goals missed.
-#[must_use]
 pub fn cost(goals: &[Goal], limits: &[[f64; 2]], costs: &[f64], amounts: &[f64]) -> f64 {
     let moved = amounts.iter().zip(limits).zip(costs).filter(|((amount, _), _)| **amount != 0.0);
     let of_handles: f64 = moved.map(|((amount, limit), cost)| cost + amount.abs() / limit[1].max(-limit[0])).sum();
@@ -129,14 +118,11 @@ pub fn cost(goals: &[Goal], limits: &[[f64; 2]], costs: &[f64], amounts: &[f64])
     of_handles + missed.sum::<f64>()
 }
 
-/// Distance of a value from the band of a goal.
 fn off(goal: &Goal, value: f64) -> f64 {
     (goal.band[0] - value).max(value - goal.band[1]).max(0.0)
 }
 
-/// Search over the sets of handles.
 struct Search<'a> {
-    /// Goals as they are asked for.
     asked: &'a [Goal],
     /// Goals as a set has to meet them: what is out of reach may be spared.
     goals: &'a [Goal],
@@ -145,7 +131,6 @@ struct Search<'a> {
     scale: &'a [f64],
     /// Handles that may join a set, the cheapest first.
     order: &'a [usize],
-    /// Cost and change of the best set so far.
     best: Option<(f64, Change)>,
 }
 
@@ -169,7 +154,6 @@ impl Search<'_> {
         }
     }
 
-    /// True unless a goal is missed even where every handle of a set, and from `next` on, moves to its limit.
     fn may_meet(&self, set: &[usize], next: usize) -> bool {
         let handles = || set.iter().chain(&self.order[next..]);
         self.goals.iter().filter(|goal| goal.gives.is_none()).all(|goal| {
@@ -183,7 +167,6 @@ impl Search<'_> {
         })
     }
 
-    /// Solves for the amounts of a set, and keeps it if it meets the goals at less cost than the best one.
     fn weigh(&mut self, set: &[usize]) {
         let change = least_of(set, self.goals, self.limits, self.scale);
         let is_met =
@@ -207,7 +190,6 @@ struct Constraint {
     give: f64,
 }
 
-/// Constraints of both ends of every band and every limit.
 fn constraints(goals: &[Goal], limits: &[[f64; 2]], scale: &[f64]) -> Vec<Constraint> {
     let mut rows = Vec::new();
     for goal in goals {
@@ -293,7 +275,6 @@ mod tests {
         assert!((found.amounts[0] / found.amounts[1] - 100.0).abs() < 0.5, "{found:?}");
     }
 
-    /// Sets of handles that cost 1 each, with goals in the unit m.
     fn check_set(goals: &[Goal], limits: &[[f64; 2]], expect_mm: &[f64]) {
         let found = fewest(goals, limits, &vec![1.0; limits.len()]);
         for (found, expected) in found.amounts.iter().zip(expect_mm) {

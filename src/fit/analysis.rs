@@ -7,34 +7,29 @@ use super::resample::{interval, sign_flip};
 use super::statistics::{effect_size, equivalence, mean, sd};
 use super::{ALPHA, MARGIN};
 
-/// Statistics of pairs of drapes by both simulators, subject by subject. A difference is the EI of FEM-GS minus that of
-/// Hybrid-GS.
+/// Statistics of pairs of drapes by both simulators. Differences are the EI of FEM-GS minus that of Hybrid-GS.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Analysis {
     /// Number of cases: sizes times subjects.
     pub cases: usize,
     /// Number of cases in which FEM-GS and in which Hybrid-GS has the lower EI.
     pub wins: [usize; 2],
-    /// Mean difference of each subject.
     pub subjects: Vec<f64>,
     /// Estimate from these means. `None` without any subject.
     pub estimate: Option<Estimate>,
     /// Mean differences without each measurement in turn.
     pub without: Vec<Without>,
-    /// Mean differences without the free edges, and without the measurements that a simulator restores by construction.
+    /// Mean differences without free edges, and without the measurements that a simulator restores by construction.
     pub told_apart: Vec<Without>,
-    /// Number of measurements that a simulator restores by construction. If that is all, [`Analysis::told_apart`] has
-    /// no mean without them.
+    /// Number of measurements that a simulator restores. If that is all, [`Analysis::told_apart`] has no mean without.
     pub controlled: usize,
 }
 
 /// [`Without::what`] for the measurements that a simulator restores by construction.
 pub(super) const CONTROLLED: &str = "controlled measurements";
 
-/// Mean difference over subjects with its uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// Mean over subjects.
     pub mean: f64,
     /// Bootstrap interval of the mean at 95 %. `None` for fewer than two subjects.
     pub interval: Option<(f64, f64)>,
@@ -48,20 +43,16 @@ pub struct Estimate {
     pub p_equivalence: Option<f64>,
 }
 
-/// Mean difference without some of the measurements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Without {
     /// Name of the measurements left out (`#6 Neck Opening`, `free edges`).
     pub what: String,
-    /// Mean difference over subjects by the remaining measurements.
     pub mean: f64,
     /// Number of cases in which FEM-GS and in which Hybrid-GS has the lower EI by these.
     pub wins: [usize; 2],
 }
 
 impl Analysis {
-    /// Analyses a set of pairs.
-    #[must_use]
     pub fn new(pairs: &[&Pair]) -> Self {
         let subjects = by_subject(pairs, |_| true);
         let mut names: BTreeMap<u32, (&str, bool)> = BTreeMap::new();
@@ -89,13 +80,10 @@ impl Analysis {
     }
 
     /// True if a simulator restores every measurement by construction, so that a comparison is circular.
-    #[must_use]
     pub fn is_circular(&self) -> bool {
         self.controlled > 0 && !self.told_apart.iter().any(|rest| rest.what == CONTROLLED)
     }
 
-    /// First measurement without which the mean difference changes its sign. `None` if there is none.
-    #[must_use]
     pub fn turned_by(&self) -> Option<&Without> {
         let mean = self.estimate?.mean;
         self.without.iter().find(|rest| rest.mean * mean <= 0.0)

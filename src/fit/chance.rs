@@ -10,20 +10,15 @@ const Z: f64 = 1.281_551_565_544_6;
 /// Least departure from a band that counts, m. Any smaller one rounds to zero in millimetres.
 const DEPARTURE_M: f64 = 0.5e-3;
 
-/// Fit of a size.
+/// Fit of a size, by its worst level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Sitting {
-    /// Every level lies in its band.
     Fits,
-    /// The worst level is too tight.
     Tight,
-    /// The worst level is too loose.
     Loose,
 }
 
-/// Compares an ease, m, with its band.
-#[must_use]
 pub fn sitting(ease_m: f64, band: &Band) -> Sitting {
     match band.off_m(ease_m) {
         off if off <= -DEPARTURE_M => Sitting::Tight,
@@ -32,20 +27,16 @@ pub fn sitting(ease_m: f64, band: &Band) -> Sitting {
     }
 }
 
-/// Fit of a size in one draw.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verdict {
-    /// Fit of the size.
     pub sitting: Sitting,
-    /// Index of the level that lies farthest outside its band, with departures to the tight side doubled. `None` for a
-    /// size that fits.
+    /// Index of the level farthest outside its band, tight departures doubled. `None` for a size that fits.
     pub decides: Option<usize>,
     /// Weighted departure of that level, m ([`Band::weight_m`]).
     pub weight_m: f64,
 }
 
-/// Judges a size by the eases at its levels, m. A level without a band does not count.
-#[must_use]
+/// Ignores levels without a band.
 pub fn verdict(eases_m: &[f64], bands: &[Option<Band>]) -> Verdict {
     let mut worst = Verdict { sitting: Sitting::Fits, decides: None, weight_m: 0.0 };
     for (level, (ease_m, band)) in eases_m.iter().zip(bands).enumerate() {
@@ -59,9 +50,7 @@ pub fn verdict(eases_m: &[f64], bands: &[Option<Band>]) -> Verdict {
     worst
 }
 
-/// Size to wear: the one whose worst level has the least weighted departure, or the first of equals. `None` without
-/// sizes.
-#[must_use]
+/// Size whose worst level has the least weighted departure, or the first of equals.
 pub fn to_wear(sizes: &[Verdict]) -> Option<usize> {
     // `min_by` returns the first of equals.
     (0..sizes.len()).min_by(|&a, &b| sizes[a].weight_m.total_cmp(&sizes[b].weight_m))
@@ -70,15 +59,12 @@ pub fn to_wear(sizes: &[Verdict]) -> Option<usize> {
 /// Share of draws, with the 80 % Wilson interval of the estimated probability [Wilson 1927].
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Share {
-    /// Share of the draws, 0 to 1.
     pub share: f64,
-    /// Ends of the interval of the probability, 0 to 1.
     pub interval: [f64; 2],
 }
 
 impl Share {
     /// Share of `count` in `draws`. Without draws, NaN with the interval 0 to 1.
-    #[must_use]
     pub fn of(count: usize, draws: usize) -> Self {
         if draws == 0 {
             return Self { share: f64::NAN, interval: [0.0, 1.0] };
@@ -91,7 +77,6 @@ impl Share {
 }
 
 /// Lower end, median and upper end of the central 80 % of some values. NaN without values.
-#[must_use]
 pub fn interval(values: &[f64]) -> [f64; 3] {
     if values.is_empty() {
         return [f64::NAN; 3];

@@ -1,6 +1,5 @@
 //! Simulators and fit classes.
 
-/// A garment simulator, as a rule or the evidence can recommend it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Simulator {
@@ -11,11 +10,9 @@ pub enum Simulator {
 }
 
 impl Simulator {
-    /// Both simulators, FEM-GS first.
     pub const ALL: [Self; 2] = [Self::Fem, Self::Hybrid];
 
     /// Name in the command line and in SQL.
-    #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Fem => "fem",
@@ -24,21 +21,17 @@ impl Simulator {
     }
 }
 
-/// Fit class of a garment on a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum FitClass {
-    /// Ease below the lower cut.
     Tight,
-    /// Ease between the cuts, both included.
+    /// Includes both cuts.
     Just,
-    /// Ease above the upper cut.
     Loose,
 }
 
 impl FitClass {
     /// Name in SQL and on screens.
-    #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Tight => "tight",
@@ -47,9 +40,7 @@ impl FitClass {
         }
     }
 
-    /// Simulator that the rule of the thesis names for this class [T 6.4.2, 6.5]: FEM-GS for loose fits, Hybrid-GS
-    /// otherwise.
-    #[must_use]
+    /// Simulator that the rule of the thesis names [T 6.4.2, 6.5]: FEM-GS for loose fits, Hybrid-GS otherwise.
     pub fn rule_says(self) -> Simulator {
         match self {
             Self::Loose => Simulator::Fem,

@@ -20,31 +20,23 @@ pub struct Asked {
 }
 
 impl Asked {
-    /// Change of the length at some turns.
-    #[must_use]
     pub fn change(&self, turns: &[i32]) -> f64 {
         self.per_step.iter().zip(turns).map(|(a, turn)| a * f64::from(*turn)).sum()
     }
 }
 
-/// All lengths that a person asks of a size.
 pub type Asks = Vec<Asked>;
 
-/// A weighted sum of turns that must lie between two bounds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bound {
-    /// Weight of each parameter.
     pub weights: Vec<f64>,
-    /// Least and greatest sum.
     pub between: [f64; 2],
 }
 
-/// Problem of the search.
 #[derive(Clone, Debug)]
 pub struct Search<'a> {
     /// Lengths that people ask of sizes, by size, then by person.
     pub asks: &'a [Vec<Asks>],
-    /// Bounds of the turns.
     pub bounds: &'a [Bound],
     /// Weighted sums of turns that are zero in a series of the default grade.
     pub habits: &'a [Vec<f64>],
@@ -52,10 +44,8 @@ pub struct Search<'a> {
     pub price: f64,
 }
 
-/// Turns of all parameters.
 pub type Turns = Vec<i32>;
 
-/// A series with the value of its objective.
 #[derive(Clone)]
 struct Candidate {
     worth: f64,
@@ -72,8 +62,6 @@ const SHAKE: usize = 20;
 const FAR: i32 = 1000;
 
 impl Search<'_> {
-    /// Number of people that at least one size of a series fits.
-    #[must_use]
     pub fn covered(&self, turns: &[i32]) -> usize {
         (0..self.people()).filter(|&person| self.asks.iter().any(|size| is_met(&size[person], turns))).count()
     }
@@ -88,8 +76,6 @@ impl Search<'_> {
         self.habits.iter().map(|weights| sum(weights, turns).abs()).sum()
     }
 
-    /// Best series found from some starts.
-    #[must_use]
     pub fn best(&self, starts: &[Turns], seed: u64) -> Turns {
         let mut random = Draw::new(seed);
         let mut best = starts.iter().map(|start| self.improved(start.clone())).fold(None, better);
@@ -100,8 +86,6 @@ impl Search<'_> {
         best.map_or_else(Vec::new, |best| best.turns)
     }
 
-    /// Local optimum that the search reaches from a series, with its objective.
-    #[must_use]
     pub fn near(&self, turns: &[i32]) -> (f64, Turns) {
         let Candidate { worth, turns } = self.improved(turns.to_vec());
         (worth, turns)
@@ -124,7 +108,6 @@ impl Search<'_> {
         shaken
     }
 
-    /// Optimises along all lines until a pass brings no gain.
     fn improved(&self, mut turns: Turns) -> Candidate {
         let lines = lines(turns.len());
         let mut worth = self.worth(&turns);
@@ -145,8 +128,7 @@ impl Search<'_> {
         Candidate { worth: self.worth(&turns), turns }
     }
 
-    /// Greatest objective along a line, and the number of steps to it: among equal points, to the middle of the longest
-    /// interval.
+    /// Greatest objective along a line, and steps to it: among equals, to the middle of the longest interval.
     fn along(&self, turns: &[i32], line: &[i32]) -> (f64, i32) {
         let [least, most] = self.reach(turns, line);
         let mut steps = vec![0; (most - least + 2) as usize];
@@ -187,7 +169,6 @@ impl Search<'_> {
         (worth, least + by)
     }
 
-    /// Least and greatest number of steps along a line that keep the bounds.
     fn reach(&self, turns: &[i32], line: &[i32]) -> [i32; 2] {
         let mut reach = [-FAR, FAR];
         for Bound { weights, between: [least, most] } in self.bounds {
@@ -207,7 +188,6 @@ impl Search<'_> {
 /// Share of a step by which a bound may be missed by rounding.
 const SLIGHT: f64 = 1e-9;
 
-/// Weighted sum of turns.
 fn sum(weights: &[f64], turns: &[i32]) -> f64 {
     weights.iter().zip(turns).map(|(weight, turn)| weight * f64::from(*turn)).sum()
 }
@@ -228,8 +208,6 @@ fn lines(parameters: usize) -> Vec<Turns> {
     lines
 }
 
-/// True if a size has every length in its band.
-#[must_use]
 pub fn is_met(asks: &Asks, turns: &[i32]) -> bool {
     asks.iter().all(|asked| (asked.band[0]..=asked.band[1]).contains(&asked.change(turns)))
 }
@@ -239,7 +217,6 @@ fn better(best: Option<Candidate>, next: Candidate) -> Option<Candidate> {
     best.filter(|best| best.worth >= next.worth).or(Some(next))
 }
 
-/// Intersects an interval of steps along a line with those for which a length stays in its band.
 fn narrow(interval: &mut [i32; 2], asked: &Asked, turns: &[i32], way: &[i32]) {
     let (value, by) = (asked.change(turns), asked.change(way));
     let [least, most] = asked.band.map(|bound| bound - value);
@@ -277,7 +254,6 @@ fn longest_best(values: impl Iterator<Item = f64>) -> (f64, i32) {
 mod tests {
     use super::*;
 
-    /// People who each need one length between two places.
     fn on_a_line(bands: &[[f64; 2]]) -> Vec<Asks> {
         bands.iter().map(|band| vec![Asked { per_step: vec![1.0], band: *band }]).collect()
     }
@@ -305,7 +281,6 @@ mod tests {
         best.into_iter().max().unwrap_or(0)
     }
 
-    /// Bounds of single parameters.
     fn within(parameters: usize, between: [f64; 2]) -> Vec<Bound> {
         let one = |k: usize| Bound { weights: (0..parameters).map(|j| f64::from(u8::from(j == k))).collect(), between };
         (0..parameters).map(one).collect()

@@ -16,8 +16,7 @@ pub(super) fn normal(x: f64) -> f64 {
     if x > 0.0 { 1.0 - density / tail } else { density / tail }
 }
 
-/// Distribution function of Student's t with whole degrees of freedom, 1 or more: the finite sums of [Abramowitz &
-/// Stegun 26.7.3, 26.7.4].
+/// Distribution function of Student's t with whole degrees of freedom, 1 or more [Abramowitz & Stegun 26.7.3, 26.7.4].
 pub(super) fn student(t: f64, dof: usize) -> f64 {
     let angle = (t / (dof as f64).sqrt()).atan();
     let square = angle.cos().powi(2);

@@ -2,12 +2,9 @@
 
 use super::class::FitClass;
 
-/// Limits between the fit classes, as ease, m.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Cuts {
-    /// Ease below which a fit is tight.
     pub tight_below_m: f64,
-    /// Ease above which a fit is loose.
     pub loose_above_m: f64,
 }
 
@@ -18,8 +15,6 @@ impl Default for Cuts {
 }
 
 impl Cuts {
-    /// Class of an ease, m.
-    #[must_use]
     pub fn classify(&self, ease_m: f64) -> FitClass {
         if ease_m < self.tight_below_m {
             FitClass::Tight
@@ -30,27 +25,20 @@ impl Cuts {
         }
     }
 
-    /// True for an ease at which the ranges printed in the thesis overlap: up to 1 cm below the lower limit, up to 2 cm
-    /// above the upper one.
-    #[must_use]
+    /// True where the ranges printed in the thesis overlap: up to 1 cm below the lower limit, 2 cm above the upper one.
     pub fn is_borderline(&self, ease_m: f64) -> bool {
         (self.tight_below_m - 0.01..self.tight_below_m).contains(&ease_m)
             || (ease_m > self.loose_above_m && ease_m <= self.loose_above_m + 0.02)
     }
 }
 
-/// Ease of a garment on a body at one level.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Ease {
     /// Body level (`chest`, `hip`, ...).
     pub level: String,
-    /// Girth of the pattern at the level, m.
     pub pattern_girth_m: f64,
-    /// Girth of the body at the level, m.
     pub body_girth_m: f64,
-    /// Fit class of the ease.
     pub class: FitClass,
-    /// True if the ease lies in an overlap of the thesis's ranges.
     pub borderline: bool,
     /// True if the cut holds the garment to the body there: too much ease is a fault.
     #[serde(default = "held")]
@@ -64,21 +52,16 @@ const fn held() -> bool {
 
 impl Ease {
     /// Pattern girth minus body girth, m.
-    #[must_use]
     pub fn ease_m(&self) -> f64 {
         self.pattern_girth_m - self.body_girth_m
     }
 
-    /// True if the pattern is smaller than the body.
-    #[must_use]
     pub fn is_undersized(&self) -> bool {
         self.ease_m() < 0.0
     }
 }
 
-/// Ease at each fit level of a garment, given by name and pattern girth, m, and whether the cut holds it to the body. A
-/// level whose body girth is unknown is left out.
-#[must_use]
+/// Takes levels: name, pattern girth, m, and true if the cut holds it to the body. Leaves out unknown body girths.
 pub fn ease<'l>(
     levels: impl IntoIterator<Item = (&'l str, f64, bool)>,
     body_girth_m: impl Fn(&str) -> Option<f64>,

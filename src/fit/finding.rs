@@ -2,7 +2,6 @@
 
 use super::class::Simulator;
 
-/// Verdict of the evidence on one garment and fit class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Finding {
     /// FEM-GS is truer to the pattern.
@@ -11,13 +10,11 @@ pub enum Finding {
     Hybrid,
     /// Both are equivalent within the margin.
     NoDifference,
-    /// The data do not suffice for a verdict.
     InsufficientEvidence,
 }
 
 impl Finding {
     /// Name in SQL (`v_recommendation.verdict`).
-    #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Fem => "fem",
@@ -27,15 +24,11 @@ impl Finding {
         }
     }
 
-    /// Finding with a name in SQL. `None` if there is none.
-    #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         let all = [Self::Fem, Self::Hybrid, Self::NoDifference, Self::InsufficientEvidence];
         all.into_iter().find(|finding| finding.as_str() == name)
     }
 
-    /// Simulator that the finding names. `None` for one that names none.
-    #[must_use]
     pub fn simulator(self) -> Option<Simulator> {
         match self {
             Self::Fem => Some(Simulator::Fem),
@@ -45,18 +38,14 @@ impl Finding {
     }
 }
 
-/// Basis of a recommendation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Basis {
-    /// Rule of the thesis.
     Rule,
-    /// Numbers of the study.
     Evidence,
 }
 
 impl Basis {
     /// Name in SQL (`v_recommendation.basis`).
-    #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Rule => "rule",

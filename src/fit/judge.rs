@@ -10,73 +10,53 @@ use super::pair::{Pair, by_subject};
 use super::statistics::{holm, mean};
 use super::weigh::{LEAST, Verdict, Weighed};
 
-/// A garment and a fit class that need an answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cell {
-    /// Name of the garment, as in [`Pair::garment`].
     pub garment: String,
-    /// Fit class of its cases.
     pub class: FitClass,
 }
 
-/// Answer for a garment and fit class.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
-    /// Name of the garment.
     pub garment: String,
-    /// Fit class.
     pub class: FitClass,
     /// Verdict of the numbers alone.
     pub finding: Finding,
-    /// Statistics of the cases.
     pub analysis: Analysis,
     /// p of the sign-flip test, adjusted by Holm over all answers with enough subjects. `None` for too few subjects.
     pub p_holm: Option<f64>,
     /// Mean regret in EI on held-out subjects: of the choice from the other subjects of this garment and fit class, and
     /// of the one simulator that is best in the whole study. `None` if no subject can be held out.
     pub regret: Option<[f64; 2]>,
-    /// Reason, in one or two sentences.
     pub reason: String,
-    /// Further data that would settle or reverse the finding.
     pub would_settle: String,
 }
 
 impl Answer {
-    /// Simulator to use.
-    #[must_use]
     pub fn recommended(&self) -> Simulator {
         self.finding.simulator().unwrap_or_else(|| self.class.rule_says())
     }
 
-    /// Basis of the recommendation.
-    #[must_use]
     pub fn basis(&self) -> Basis {
         if self.finding.simulator().is_some() { Basis::Evidence } else { Basis::Rule }
     }
 }
 
-/// Answers for every cell, and statistics of each garment over all fit classes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evidence {
-    /// One answer for each cell, in the order of the cells.
+    /// Answers in the order of the cells.
     pub answers: Vec<Answer>,
-    /// Statistics of each garment over all fit classes.
     pub garments: Vec<GarmentEvidence>,
 }
 
-/// Statistics of a garment over all fit classes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GarmentEvidence {
-    /// Name of the garment.
     pub garment: String,
-    /// Statistics of its cases.
     pub analysis: Analysis,
     /// p of the sign-flip test, adjusted by Holm over all garments with enough subjects. `None` for too few subjects.
     pub p_holm: Option<f64>,
 }
 
-/// Judges every cell by the pairs of a study.
-#[must_use]
 pub fn judge(cells: &[Cell], pairs: &[Pair]) -> Evidence {
     let pairs_of = |cell: &Cell| -> Vec<&Pair> {
         pairs.iter().filter(|p| p.garment == cell.garment && p.class == cell.class).collect()
@@ -94,7 +74,6 @@ pub fn judge(cells: &[Cell], pairs: &[Pair]) -> Evidence {
     Evidence { answers: answers.collect(), garments: garments(pairs) }
 }
 
-/// Statistics of every garment over all fit classes, in the order of the pairs.
 fn garments(pairs: &[Pair]) -> Vec<GarmentEvidence> {
     let mut names: Vec<&str> = Vec::new();
     for pair in pairs {
@@ -122,7 +101,6 @@ fn adjusted(analyses: &[Analysis]) -> Vec<Option<f64>> {
     analyses.iter().map(|a| if testable(&a) { adjusted.next() } else { None }).collect()
 }
 
-/// Held-out regret, see [`Answer::regret`]. `None` if no subject can be held out.
 fn regret(cell: &[&Pair], all: &[Pair]) -> Option<[f64; 2]> {
     let mut cases: BTreeMap<&str, Vec<&Pair>> = BTreeMap::new();
     for pair in cell {

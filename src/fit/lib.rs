@@ -39,5 +39,5 @@ pub use threshold::{Crossover, CrossoverEase, crossover};
 /// Significance level of every test.
 pub const ALPHA: f64 = 0.05;
 
-/// EI difference below which the simulators count as equivalent in practice: 1 % of the pattern's lengths. Judgement.
+/// EI difference below which the simulators count as equivalent: 1 % of the pattern's lengths. Judgement.
 pub const MARGIN: f64 = 0.01;

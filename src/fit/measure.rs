@@ -3,29 +3,25 @@
 use geom::V3;
 use pattern::{Garment, Measurement};
 
-/// One measurement of one drape.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Chi {
     /// Number of the measurement in the style.
     pub no: u32,
-    /// Pattern length L2D, m.
+    /// Pattern length.
     pub l2d_m: f64,
-    /// Garment length L3D, m.
+    /// Garment length.
     pub l3d_m: f64,
 }
 
 impl Chi {
     /// Evaluation ratio chi = L3D / L2D [T 3.11].
-    #[must_use]
     pub fn chi(&self) -> f64 {
         self.l3d_m / self.l2d_m
     }
 }
 
-/// Summary statistics over the measurements of one drape.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Metrics {
-    /// Number of measurements.
     pub n: usize,
     /// E: mean chi.
     pub e_chi: f64,
@@ -55,14 +51,12 @@ pub struct Metrics {
 /// assert!(metrics.max_abs_error < 1e-12);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[must_use]
 pub fn measure(garment: &Garment, positions: &[V3]) -> Vec<Chi> {
     let chi = |m: &Measurement| Chi { no: m.no, l2d_m: m.l2d_m, l3d_m: m.length_m(&garment.rest, positions) };
     garment.measurements.iter().map(chi).collect()
 }
 
-/// E, SD, EI and the greatest error of a set of measurements. `None` without measurements.
-#[must_use]
+/// `None` without measurements.
 pub fn metrics(chis: &[Chi]) -> Option<Metrics> {
     if chis.is_empty() {
         return None;

@@ -5,12 +5,9 @@ use std::collections::BTreeMap;
 use super::class::{FitClass, Simulator};
 use super::statistics::mean;
 
-/// Errors of both simulators at one measurement of a pattern.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Errors {
-    /// Number of the measurement in the style.
     pub no: u32,
-    /// Name of the measurement in the style.
     pub name: String,
     /// |chi - 1| of FEM-GS.
     pub fem: f64,
@@ -22,27 +19,20 @@ pub struct Errors {
     pub controlled: bool,
 }
 
-/// A case that both simulators have draped.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pair {
-    /// Name of the garment in the study.
     pub garment: String,
-    /// Name of the size, such as `M`.
     pub size: String,
-    /// Name of the subject in the study.
     pub subject: String,
-    /// Fit class of the deciding ease.
     pub class: FitClass,
-    /// Ease that decides the class, m.
+    /// Ease that decides the class.
     pub ease_m: f64,
     /// Errors at every measurement that both drapes have.
     pub errors: Vec<Errors>,
 }
 
 impl Pair {
-    /// EI of a simulator (mean |chi - 1|) over the measurements for which `keep` is true. `None` without such
-    /// measurements.
-    #[must_use]
+    /// EI of a simulator over the measurements for which `keep` is true. `None` without such measurements.
     pub fn ei(&self, simulator: Simulator, keep: impl Fn(&Errors) -> bool) -> Option<f64> {
         let error = |e: &Errors| match simulator {
             Simulator::Fem => e.fem,
@@ -54,7 +44,6 @@ impl Pair {
 
     /// EI of FEM-GS minus that of Hybrid-GS over the measurements for which `keep` is true. Negative if FEM-GS is
     /// truer. `None` without such measurements.
-    #[must_use]
     pub fn d_ei(&self, keep: impl Fn(&Errors) -> bool) -> Option<f64> {
         Some(self.ei(Simulator::Fem, &keep)? - self.ei(Simulator::Hybrid, &keep)?)
     }
@@ -70,13 +59,11 @@ pub(super) fn by_subject(pairs: &[&Pair], keep: impl Fn(&Errors) -> bool) -> Vec
 }
 
 /// Numbers of cases in which FEM-GS and in which Hybrid-GS has the lower EI.
-#[must_use]
 pub fn wins(pairs: &[&Pair], keep: impl Fn(&Errors) -> bool) -> [usize; 2] {
     let differences: Vec<f64> = pairs.iter().filter_map(|pair| pair.d_ei(&keep)).collect();
     [differences.iter().filter(|d| **d < 0.0).count(), differences.iter().filter(|d| **d > 0.0).count()]
 }
 
-/// Score of a rule that names a simulator by fit class.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RuleScore {
     /// Number of cases in which the named simulator has the lower EI.
@@ -87,7 +74,6 @@ pub struct RuleScore {
 
 /// Scores the rule "FEM-GS for loose fits, Hybrid-GS for tight ones" by the lower EI. Just fits do not count, because
 /// the thesis claims nothing about their accuracy.
-#[must_use]
 pub fn rule_score(pairs: &[Pair]) -> RuleScore {
     let mut score = RuleScore::default();
     for pair in pairs.iter().filter(|pair| pair.class != FitClass::Just) {

@@ -10,15 +10,11 @@ use pattern::{Garment, Measurement, MeasurementKind};
 pub struct Drawn {
     /// Name of the measurement along the opening.
     pub opening: String,
-    /// Mean along the opening, m.
     pub mean_m: f64,
-    /// Greatest displacement along the opening, m.
     pub most_m: f64,
 }
 
-/// Displacement of each closed free edge. The vertices of the garment are at `after`, and would be at `kept` if they
-/// had stayed in place on the body.
-#[must_use]
+/// Displacement of each closed free edge, for vertices at `after` that would be at `kept` if they had stayed in place.
 pub fn drawn(garment: &Garment, kept: &[V3], after: &[V3]) -> Vec<Drawn> {
     let is_opening = |m: &&Measurement| m.is_free_edge && m.kind == MeasurementKind::ClosedGirth;
     let middle = mean(kept.iter().copied());

@@ -2,8 +2,7 @@
 
 use super::distribution::{normal, student_quantile};
 
-/// Greatest number of subjects for which all assignments of signs are enumerated: about a million. For more, [`DRAWS`]
-/// assignments are drawn.
+/// Greatest number of subjects for which all assignments of signs are enumerated. For more, [`DRAWS`] are drawn.
 const EXACT: usize = 20;
 /// Number of random draws of signs or subjects: 10,000 with the observed sample.
 const DRAWS: usize = 9999;
@@ -13,13 +12,10 @@ const DRAWS: usize = 9999;
 pub struct Draw(u64);
 
 impl Draw {
-    /// Sequence of a seed.
-    #[must_use]
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
-    /// Next 64 bits of the sequence, uniformly distributed.
     pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -28,7 +24,6 @@ impl Draw {
         z ^ (z >> 31)
     }
 
-    /// Uniform whole number below `n`.
     pub fn below(&mut self, n: usize) -> usize {
         ((u128::from(self.bits()) * n as u128) >> 64) as usize
     }
@@ -49,7 +44,6 @@ impl Draw {
 ///
 /// Share of all assignments of signs to the differences whose absolute sum is at least that of the differences: exact
 /// for up to 20 differences, estimated by seeded draws for more. Without differences, 1.
-#[must_use]
 pub fn sign_flip(differences: &[f64]) -> f64 {
     let n = differences.len();
     let sum: f64 = differences.iter().sum();
@@ -78,7 +72,6 @@ pub fn sign_flip(differences: &[f64]) -> f64 {
 
 /// Bootstrap interval of the mean with coverage `1 - alpha`: expanded percentiles of the means of subjects drawn with
 /// replacement [Hesterberg 2015]. Seeded, so the same values give the same interval. `None` for fewer than two values.
-#[must_use]
 pub fn interval(values: &[f64], alpha: f64) -> Option<(f64, f64)> {
     let share = share(values.len(), alpha)?;
     let mut means = bootstrap(values.len(), |drawn| drawn.iter().map(|&k| values[k]).sum::<f64>() / drawn.len() as f64);

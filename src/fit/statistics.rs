@@ -15,7 +15,6 @@ pub(super) fn sd(values: &[f64]) -> f64 {
 
 /// Paired effect size: mean difference / its standard deviation (Cohen's d_z) [Cohen 1988], corrected for small samples
 /// by `1 - 3 / (4 (n - 1) - 1)` [Hedges 1981]. `None` for fewer than three values, or equal values.
-#[must_use]
 pub fn effect_size(differences: &[f64]) -> Option<f64> {
     let dof = differences.len().checked_sub(1).filter(|&dof| dof > 1)? as f64;
     let size = mean(differences) / sd(differences) * (1.0 - 3.0 / (4.0 * dof - 1.0));
@@ -24,7 +23,6 @@ pub fn effect_size(differences: &[f64]) -> Option<f64> {
 
 /// Holm's step-down adjustment of the p values of several tests, in the given order. It keeps the probability of any
 /// false rejection among them below the level of one test [Holm 1979].
-#[must_use]
 pub fn holm(p: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..p.len()).collect();
     order.sort_by(|&a, &b| p[a].total_cmp(&p[b]));
@@ -39,7 +37,6 @@ pub fn holm(p: &[f64]) -> Vec<f64> {
 
 /// p of the two one-sided t tests that a mean lies within `margin` of 0, the greater of both [Schuirmann 1987]. `error`
 /// is the standard error of the mean with `dof` degrees of freedom, 1 or more.
-#[must_use]
 pub fn equivalence(mean: f64, error: f64, dof: usize, margin: f64) -> f64 {
     if error <= 0.0 {
         return if mean.abs() < margin { 0.0 } else { 1.0 };

@@ -2,18 +2,14 @@
 
 use std::collections::BTreeMap;
 
-/// Intended fit of a garment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Intended {
     /// Smaller than the body, of stretch cloth.
     Compression,
-    /// Close to the body.
     Slim,
-    /// With room to move.
     #[default]
     Regular,
-    /// Away from the body.
     Loose,
 }
 
@@ -22,7 +18,6 @@ impl Intended {
     pub const ALL: [Self; 4] = [Self::Compression, Self::Slim, Self::Regular, Self::Loose];
 
     /// Name in study files and SQL.
-    #[must_use]
     pub const fn as_str(self) -> &'static str {
         match self {
             Self::Compression => "compression",
@@ -32,28 +27,21 @@ impl Intended {
         }
     }
 
-    /// Intended fit with a name. `None` if there is none.
-    #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|fit| fit.as_str() == name)
     }
 }
 
-/// Target ease at a level of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TargetLevel {
-    /// Name of the level.
     pub level: &'static str,
-    /// `Some(true)` for garments that cover the chest only, `Some(false)` for all others only, `None` for every
-    /// garment.
+    /// `Some(true)` only for garments that cover the chest, `Some(false)` only for others, `None` for all.
     pub of_top: Option<bool>,
-    /// Least and greatest ease of each intended fit, mm.
     eases_mm: [[i32; 2]; 4],
 }
 
 impl TargetLevel {
-    /// Least and greatest ease of each intended fit, in the order of [`Intended::ALL`], mm.
-    #[must_use]
+    /// Least and greatest ease of each intended fit, in the order of [`Intended::ALL`].
     pub const fn eases_mm(&self) -> [[i32; 2]; 4] {
         self.eases_mm
     }
@@ -80,18 +68,15 @@ const fn row(level: &'static str, of_top: Option<bool>, eases_mm: [[i32; 2]; 4])
     TargetLevel { level, of_top, eases_mm }
 }
 
-/// Target ease of a garment.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Target {
-    /// Fit that the maker intends. Gives the ease of levels that are not in `own_m`.
+    /// Gives the ease of levels that are not in `own_m`.
     pub intended: Intended,
     /// Least and greatest ease of some levels, for this garment alone, m.
     pub own_m: BTreeMap<String, [f64; 2]>,
-    /// True if the fabric does not stretch ([`is_rigid`]).
     pub is_rigid: bool,
 }
 
-/// Ease that is meant at a level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Band {
     /// Least and greatest ease, m. The greatest is infinite where the garment hangs free.
@@ -102,14 +87,12 @@ pub struct Band {
 
 impl Band {
     /// Departure of an ease from the band, m, negative if the garment is too tight.
-    #[must_use]
     pub fn off_m(&self, ease_m: f64) -> f64 {
         (ease_m - self.ends_m[0]).min(0.0) + (ease_m - self.ends_m[1]).max(0.0)
     }
 
     /// Weighted departure of an ease, m (`v_fit.weight_mm`). A tight departure counts double, because a tight garment
     /// cannot be worn. A girth that cannot be closed counts a grade step more, and so is out of reach.
-    #[must_use]
     pub fn weight_m(&self, ease_m: f64) -> f64 {
         let cannot_close = if self.must_close && ease_m < 0.0 { GRADE_STEP_M } else { 0.0 };
         let off_m = self.off_m(ease_m);
@@ -118,14 +101,11 @@ impl Band {
 }
 
 /// Ends of a band of ease, mm, in words. The greatest may be infinite.
-#[must_use]
 pub fn band_words([least_mm, most_mm]: [f64; 2]) -> String {
     if most_mm.is_finite() { format!("{least_mm:.0} to {most_mm:.0}") } else { format!("from {least_mm:.0}") }
 }
 
-/// True for a level that is a girth of the body round which cloth closes. A neckline lies below the neck, and a
-/// shoulder is a width.
-#[must_use]
+/// True for a girth of the body round which cloth closes: a neckline lies below the neck, a shoulder is a width.
 pub fn is_girth(level: &str) -> bool {
     !matches!(level, "neck" | "across_shoulder")
 }
@@ -134,22 +114,18 @@ impl Target {
     /// Ease that is meant at a level. `None` without a target, as at the neckline of a garment without a collar.
     /// `is_top` is true if the garment covers the chest. Where the cut does not hold the garment to the body
     /// (`is_held`), the greatest ease is infinite, unless the maker means it ([`Target::is_firm`]).
-    #[must_use]
     pub fn band(&self, level: &str, is_top: bool, is_held: bool) -> Option<Band> {
         let [least, most] = self.meant_m(level, is_top)?;
         let most = if is_held || self.is_firm(level) { most } else { f64::INFINITY };
         Some(Band { ends_m: [least, most], must_close: self.is_rigid && is_girth(level) })
     }
 
-    /// True if the greatest ease counts where the garment hangs free, too: the target is the garment's own, or the
-    /// garment is to press everywhere.
-    #[must_use]
+    /// True if the greatest ease counts where cloth hangs free: for an own target, or a garment to press everywhere.
     pub fn is_firm(&self, level: &str) -> bool {
         self.own_m.contains_key(level) || self.intended == Intended::Compression
     }
 
     /// Least and greatest ease at a level that the cut holds to the body, m.
-    #[must_use]
     pub fn meant_m(&self, level: &str, is_top: bool) -> Option<[f64; 2]> {
         let is_asked = |row: &&TargetLevel| row.level == level && row.of_top.is_none_or(|of_top| of_top == is_top);
         let table = || {
@@ -166,16 +142,13 @@ pub const GRADE_STEP_M: f64 = 0.06;
 /// presses with 0.2 kPa, a tenth of what wearers begin to call uncomfortable.
 const YIELDING_N_M: f64 = 30.0;
 
-/// True if a closed girth of a fabric cannot be worn smaller than the body. `membrane_weft_n_m` is the stiffness round
-/// the body, N/m.
-#[must_use]
+/// True if a closed girth of a fabric cannot be worn smaller than the body. Takes the stiffness round the body.
 pub fn is_rigid(membrane_weft_n_m: f64) -> bool {
     0.05 * membrane_weft_n_m > YIELDING_N_M
 }
 
 /// True if a size whose worst level departs by `weight_m` may be worn. Beyond a grade step a further size of the grade
 /// would lie nearer: as there is none, the sizes do not reach this body.
-#[must_use]
 pub fn is_within_reach(weight_m: f64) -> bool {
     weight_m <= GRADE_STEP_M
 }

@@ -9,15 +9,11 @@ use super::resample::{bootstrap, quantile, share};
 /// Ease at which the EI difference is 0, with its interval at 95 %.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrossoverEase {
-    /// Estimate, m.
     pub at_m: f64,
-    /// Lower end of the interval, m.
     pub low_m: f64,
-    /// Upper end of the interval, m.
     pub high_m: f64,
 }
 
-/// Regression line of the EI difference on ease, and its zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossover {
     /// EI difference at zero ease.
@@ -26,10 +22,9 @@ pub struct Crossover {
     pub slope_per_m: f64,
     /// Bootstrap interval of the slope over subjects at 95 %.
     pub slope_interval: (f64, f64),
-    /// Ease above which FEM-GS is truer. `None` if the interval of the slope contains 0, because the zero of the line
-    /// is then undetermined.
+    /// Ease above which FEM-GS is truer. `None` if the slope's interval contains 0: the zero is then undetermined.
     pub ease: Option<CrossoverEase>,
-    /// Least and greatest ease of the cases, m.
+    /// Least and greatest ease of the cases.
     pub range_m: (f64, f64),
 }
 
@@ -59,9 +54,7 @@ impl std::fmt::Display for Crossover {
     }
 }
 
-/// Fits the line by least squares to the cases, with intervals by a bootstrap over subjects. `None` for fewer than
-/// three subjects, or if all eases are equal.
-#[must_use]
+/// Least-squares line over the cases, bootstrapped over subjects. `None` for under three subjects or equal eases.
 pub fn crossover(pairs: &[&Pair]) -> Option<Crossover> {
     let mut cases: BTreeMap<&str, Vec<(f64, f64)>> = BTreeMap::new();
     for pair in pairs {

@@ -8,33 +8,28 @@ use super::{ALPHA, MARGIN};
 
 /// Fewest subjects for which the two-sided sign-flip test can reach [`ALPHA`]: the least p is then 2^(1 - 6) = 0.031.
 pub(super) const LEAST: usize = 6;
-/// Fewest subjects for which a one-sided sign-flip test can reach it, with the least p 2^-5 = 0.031. The test of
-/// equivalence is two of these.
+/// Fewest subjects for which a one-sided test can reach it: p is 2^-5 = 0.031. The test of equivalence is two of these.
 const LEAST_EQUAL: usize = 5;
 /// Number of missing subjects beyond which the exact number does not matter.
 const MOST: usize = 200;
 
-/// A finding with its reason and the further data that would settle or reverse it.
 pub(super) struct Verdict {
     pub finding: Finding,
     pub reason: String,
     pub would_settle: String,
 }
 
-/// Statistics that decide one answer.
 pub(super) struct Weighed<'a> {
     pub analysis: &'a Analysis,
-    /// Holm-adjusted p. `None` for too few subjects.
+    /// `None` for too few subjects.
     pub p_holm: Option<f64>,
-    /// Held-out regret of the choice of this answer, and of one simulator for the whole study. `None` if no subject can
-    /// be held out.
+    /// Held-out regret of the choice of this answer, and of one simulator for the whole study.
     pub regret: Option<[f64; 2]>,
     /// Number of answers that are tested together.
     pub family: usize,
 }
 
 impl Weighed<'_> {
-    /// Decides on the finding, with the reason and the data that would settle or reverse it.
     pub fn decide(&self, class: FitClass) -> Verdict {
         let n = self.analysis.subjects.len();
         let Some(estimate) = self.analysis.estimate.filter(|estimate| n >= least(estimate)) else {
@@ -67,7 +62,6 @@ impl Weighed<'_> {
         self.abstain(format!("{reason}; a test of fewer than {least} cannot reach p = {ALPHA}, so the rule stands."))
     }
 
-    /// Verdict if the interval lies within the margin.
     fn within(&self, estimate: &Estimate, class: FitClass) -> Verdict {
         let said = format!("The mean EI difference is {}", told(estimate));
         if estimate.p_equivalence.is_none_or(|p| p > ALPHA) {
@@ -97,7 +91,6 @@ impl Weighed<'_> {
         estimate.interval.map_or(estimate.mean.abs(), |(low, high)| low.abs().max(high.abs()))
     }
 
-    /// Verdict if the interval lies outside the margin.
     fn beyond(&self, estimate: &Estimate, class: FitClass) -> Verdict {
         let said = format!("The mean EI difference is {}", told(estimate));
         if self.p_holm.is_none_or(|p| p > ALPHA) {
@@ -140,8 +133,8 @@ impl Weighed<'_> {
         Verdict { finding, reason, would_settle: self.nearest_to_turning() }
     }
 
-    /// Reason for which a verdict for Hybrid-GS would be circular: it rests on measurements that Hybrid-GS restores by
-    /// construction. `None` if it would not be.
+    /// Reason that a verdict for Hybrid-GS rests on measurements that it restores by construction. `None` if it does
+    /// not.
     fn circular(&self) -> Option<String> {
         let controlled = self.analysis.controlled;
         let rest = self.analysis.told_apart.iter().find(|rest| rest.what == CONTROLLED);
@@ -158,7 +151,6 @@ impl Weighed<'_> {
         }
     }
 
-    /// In words, the omission of measurements that comes nearest to reversing a verdict.
     fn nearest_to_turning(&self) -> String {
         let nearest = self.analysis.without.iter().min_by(|a, b| a.mean.abs().total_cmp(&b.mean.abs()));
         nearest.map_or_else(String::new, |rest| {
@@ -195,8 +187,7 @@ fn ends(estimate: &Estimate) -> (f64, f64) {
     estimate.interval.unwrap_or((f64::NEG_INFINITY, f64::INFINITY))
 }
 
-/// Fewest subjects for which the relevant test can give a verdict: the test of equivalence if the interval lies within
-/// the margin, otherwise that of a difference.
+/// Fewest subjects for a verdict: of equivalence if the interval lies within the margin, otherwise of a difference.
 fn least(estimate: &Estimate) -> usize {
     let (low, high) = ends(estimate);
     if low > -MARGIN && high < MARGIN { LEAST_EQUAL } else { LEAST }
@@ -206,7 +197,6 @@ fn subjects(n: usize) -> String {
     if n == 1 { "1 subject".into() } else { format!("{n} subjects") }
 }
 
-/// Name of a simulator in sentences.
 fn simulator_name(simulator: Simulator) -> &'static str {
     match simulator {
         Simulator::Fem => "FEM-GS",
@@ -214,12 +204,10 @@ fn simulator_name(simulator: Simulator) -> &'static str {
     }
 }
 
-/// An EI difference with its sign.
 fn ei(difference: f64) -> String {
     format!("{difference:+.4}")
 }
 
-/// A mean difference with its interval.
 fn told(estimate: &Estimate) -> String {
     match estimate.interval {
         Some((low, high)) => format!("{} ({} to {})", ei(estimate.mean), ei(low), ei(high)),

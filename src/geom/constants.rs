@@ -3,10 +3,9 @@
 /// A constant that decides results.
 #[derive(Clone, Copy, Debug)]
 pub struct Constant {
-    /// Its room and its name, such as `contact.ccd.KEPT_SHARE`. The room is the path of the file when the constant was
+    /// Room and name, such as `contact.ccd.KEPT_SHARE`. The room is the path of the file when the constant was
     /// introduced.
     pub name: &'static str,
-    /// Value as text.
     pub value: fn() -> String,
 }
 
@@ -18,7 +17,6 @@ macro_rules! constants {
     ($room:literal, $($(#[$meta:meta])* $vis:vis const $name:ident: $type:ty = $value:expr;)+) => {
         $($(#[$meta])* $vis const $name: $type = $value;)+
 
-        /// The constants of this file.
         pub(crate) const CONSTANTS: &[$crate::constants::Constant] = &[$($crate::constants::Constant {
             name: concat!($room, ".", stringify!($name)),
             value: || format!("{:?}", $name),

@@ -5,39 +5,31 @@
 
 use super::V3;
 
-/// A rectilinear grid. Each axis has at least two node coordinates, increasing, m.
+/// Rectilinear grid. Each axis has at least two node coordinates, increasing, m.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
-    /// Coordinates of the nodes along x, y, z.
     pub axes: [Vec<f64>; 3],
 }
 
 impl Grid {
-    /// Number of nodes along each axis.
-    #[must_use]
     pub fn counts(&self) -> [usize; 3] {
         [self.axes[0].len(), self.axes[1].len(), self.axes[2].len()]
     }
 
-    /// Position of a node, m.
-    #[must_use]
     pub fn node(&self, at: [usize; 3]) -> V3 {
         V3::new(self.axes[0][at[0]], self.axes[1][at[1]], self.axes[2][at[2]])
     }
 
-    /// Index of the value of a node in an array ordered by z, then y, then x, with x running fastest.
-    #[must_use]
+    /// Index of a node's value in an array with x running fastest, then y, then z.
     pub fn index(&self, at: [usize; 3]) -> usize {
         (at[2] * self.axes[1].len() + at[1]) * self.axes[0].len() + at[0]
     }
 }
 
-/// A closed mesh of quadrilaterals, counter-clockwise seen from outside.
+/// Closed mesh, counter-clockwise seen from outside.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct QuadMesh {
-    /// Vertex positions, m.
     pub positions: Vec<V3>,
-    /// Vertex indices of each quadrilateral.
     pub quads: Vec<[usize; 4]>,
 }
 
@@ -55,7 +47,6 @@ const NONE: usize = usize::MAX;
 /// Polygonises the zero level set of `values` (negative inside, in the order of [`Grid::index`]).
 ///
 /// Values on the border of the grid should be positive. Where they are not, the mesh stays open.
-#[must_use]
 pub fn contour(grid: &Grid, values: &[f64]) -> QuadMesh {
     let mut mesh = QuadMesh::default();
     let [nx, ny, nz] = grid.counts();
@@ -79,12 +70,11 @@ pub fn contour(grid: &Grid, values: &[f64]) -> QuadMesh {
     mesh
 }
 
-/// Values at the eight corners of a cell.
 fn cell_corners(grid: &Grid, values: &[f64], cell: [usize; 3]) -> [f64; 8] {
     std::array::from_fn(|c| values[grid.index([cell[0] + (c & 1), cell[1] + (c >> 1 & 1), cell[2] + (c >> 2)])])
 }
 
-/// Adds one vertex for every sheet in a cell. Returns the vertex of each edge of the cell, or [`NONE`].
+/// Adds one vertex for every sheet in a cell. Returns that of each edge of the cell, or [`NONE`].
 fn place_vertices(grid: &Grid, cell: [usize; 3], corners: &[f64; 8], positions: &mut Vec<V3>) -> [usize; 12] {
     let sheet = sheets(corners);
     let mut vertices = [NONE; 12];
@@ -131,13 +121,11 @@ fn sheets(corners: &[f64; 8]) -> [usize; 12] {
     sheet
 }
 
-/// Index of the edge between two corners of a face.
 fn edge_between(a: usize, b: usize) -> usize {
     let pair = (a.min(b), a.max(b));
     EDGES.iter().position(|&edge| edge == pair).expect("neighbours round a face share an edge")
 }
 
-/// Merges the sheets of two edges.
 fn join(sheet: &mut [usize; 12], a: usize, b: usize) {
     let (keep, drop) = (sheet[a].min(sheet[b]), sheet[a].max(sheet[b]));
     for label in sheet.iter_mut().filter(|label| **label == drop) {
@@ -145,7 +133,6 @@ fn join(sheet: &mut [usize; 12], a: usize, b: usize) {
     }
 }
 
-/// Adds the quadrilateral dual to every grid edge along `axis` that changes sign.
 fn emit_quads(
     grid: &Grid,
     values: &[f64],
@@ -181,7 +168,7 @@ fn emit_quads(
     }
 }
 
-/// Number of the cell edge along `axis` on the upper or lower side of each of the two other axes, in cyclic order.
+/// Edge along `axis` on the upper or lower side of each of the two other axes, in cyclic order.
 fn cell_edge(axis: usize, upper_p: bool, upper_q: bool) -> usize {
     let (p, q) = ((axis + 1) % 3, (axis + 2) % 3);
     let corner = usize::from(upper_p) << p | usize::from(upper_q) << q;

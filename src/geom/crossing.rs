@@ -6,7 +6,6 @@ use super::{TriMesh, V3};
 /// only touch do not count.
 ///
 /// Sweeps over the heights of the triangles, and compares each triangle only with those of overlapping height.
-#[must_use]
 pub fn self_crossings(mesh: &TriMesh) -> Vec<[usize; 2]> {
     let boxes: Vec<(V3, V3)> = mesh.triangles.iter().map(|triangle| bounds(mesh, triangle)).collect();
     let mut upward: Vec<usize> = (0..boxes.len()).collect();
@@ -41,8 +40,7 @@ fn cross(mesh: &TriMesh, a: usize, b: usize) -> bool {
     pierces(first, second) || pierces(second, first)
 }
 
-/// True if a segment passes through the interior of a triangle, by the signs of the volumes of the tetrahedra that both
-/// span.
+/// Tests the interior of the triangle, by the signs of the volumes of the tetrahedra that both span.
 fn segment_hits([p, q]: [V3; 2], [a, b, c]: [V3; 3]) -> bool {
     let volume = |u: V3, v: V3, w: V3, z: V3| (v - u).cross(&(w - u)).dot(&(z - u));
     if volume(a, b, c, p) * volume(a, b, c, q) >= 0.0 {

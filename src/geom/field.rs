@@ -19,15 +19,13 @@ use super::{TriMesh, V3};
 /// Signed distance on a grid, m, negative inside.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DistanceField {
-    /// Position of the middle node, m.
     middle: V3,
     spacing_m: f64,
-    /// Number of nodes along each axis, which is odd.
+    /// Number of nodes along each axis, odd.
     size: [usize; 3],
     values: Vec<f32>,
 }
 
-/// Error of reading a field back.
 #[derive(Debug, thiserror::Error)]
 #[error("the stored distance field is damaged: {0}")]
 pub struct FieldError(&'static str);
@@ -35,20 +33,16 @@ pub struct FieldError(&'static str);
 /// Width of the exact shell outside the surface, in grid cells. The spline at a point of the surface uses nodes up to
 /// 1.5 sqrt(3) = 2.6 cells away.
 const SHELL_CELLS: f64 = 2.5;
-/// Marks a node whose nearest triangle is unknown.
+/// Unknown nearest triangle.
 const NONE: u32 = u32::MAX;
-/// Greatest number of nodes of a connected region whose side of the surface is computed. Their majority decides, so
-/// that a few wrong pseudo-normals do not.
+/// Greatest number of nodes of a connected region whose side is computed. Their majority decides, so that a few wrong
+/// pseudo-normals do not.
 const MOST_ASKED: usize = 64;
-/// Bound on the rounding of a distance to single precision, m.
+/// Bound on the rounding of a distance to single precision.
 const ROUNDED_M: f64 = 1e-5;
 const HEADER_BYTES: usize = 7 * 8;
 
 impl DistanceField {
-    /// Samples the distance to a closed surface at nodes `spacing_m` apart.
-    ///
-    /// # Errors
-    /// [`SurfaceError`] if the mesh is empty or does not bound a solid.
     pub fn build(mesh: &TriMesh, spacing_m: f64) -> Result<Self, SurfaceError> {
         let surface = Surface::new(mesh)?;
         let (low, high) = mesh.bounds().unwrap_or_default();
@@ -64,8 +58,8 @@ impl DistanceField {
         Ok(field)
     }
 
-    /// Computes the unsigned distance at the nodes that are near a triangle. Returns the nearest triangle of each node,
-    /// or [`NONE`].
+    /// Computes the unsigned distance at the nodes near a triangle. Returns the nearest triangle of each node, or
+    /// [`NONE`].
     fn sample_shell(&mut self, mesh: &TriMesh, surface: &Surface) -> Vec<u32> {
         let reach = V3::repeat(SHELL_CELLS * self.spacing_m);
         let mut nearest = vec![NONE; self.values.len()];
@@ -98,10 +92,9 @@ impl DistanceField {
         nearest
     }
 
-    /// Gives the nodes of the shell their signs. Two neighbours whose distances to the surface sum to more than the
-    /// spacing have no surface between them, so all nodes connected in this way are on one side. The side of some of
-    /// these is computed, and the majority decides for all: on a crumpled mesh the pseudo-normal of the nearest feature
-    /// can point the wrong way.
+    /// Gives the nodes of the shell their signs. Neighbours whose distances sum to more than the spacing are on one
+    /// side, and so are all that are connected in this way. The side of some is computed and the majority decides: on a
+    /// crumpled mesh the pseudo-normal of the nearest feature can point the wrong way.
     fn tell_sides(&mut self, surface: &Surface, nearest: &[u32]) {
         // Across a flat surface normal to the axis the two distances sum to the spacing, up to rounding.
         let apart = 1.05 * self.spacing_m as f32;
@@ -135,8 +128,7 @@ impl DistanceField {
         }
     }
 
-    /// Computes the distance at the nodes deeper inside than the shell. Along x, such a node follows another node
-    /// inside.
+    /// Computes the distance at the nodes deeper inside than the shell. Along x, each follows another node inside.
     fn fill_inside(&mut self, surface: &Surface, nearest: &mut [u32]) {
         let far = (SHELL_CELLS * self.spacing_m) as f32;
         for k in 0..self.size[2] {
@@ -156,7 +148,6 @@ impl DistanceField {
         }
     }
 
-    /// Position of a node by its index, m.
     fn position_of(&self, node: usize) -> V3 {
         let [x, y, _] = self.size;
         self.position(node % x, node / x % y, node / (x * y))
@@ -172,12 +163,12 @@ impl DistanceField {
         self.middle + V3::new(from_middle(i, x), from_middle(j, y), from_middle(k, z)) * self.spacing_m
     }
 
-    /// Position of a point relative to the middle node, in spacings.
+    /// Position relative to the middle node, in spacings.
     fn local(&self, p: &V3) -> V3 {
         (p - self.middle) / self.spacing_m
     }
 
-    /// Index along an axis of the node `from_middle` spacings from the middle node, clamped to the grid.
+    /// Index of the node `from_middle` spacings from the middle node, clamped to the grid.
     fn index(&self, axis: usize, from_middle: f64) -> usize {
         ((from_middle + (self.size[axis] / 2) as f64).max(0.0) as usize).min(self.size[axis] - 1)
     }
@@ -190,7 +181,7 @@ impl DistanceField {
         is_within.then(|| (self.index(axis, centre) - 1, local - centre))
     }
 
-    /// Nodes in a box: index, position (m) and value (m).
+    /// Index, position and value (m) of the nodes in a box.
     pub fn nodes_within(&self, low: V3, high: V3) -> impl Iterator<Item = (usize, V3, f64)> {
         let [low, high] = [self.local(&low).map(f64::ceil), self.local(&high).map(f64::floor)];
         let [along_x, along_y, along_z] = [0, 1, 2].map(|k| self.index(k, low[k])..=self.index(k, high[k]));
@@ -202,7 +193,6 @@ impl DistanceField {
     }
 
     /// Returns the field with the values of some nodes changed: (index, value in m).
-    #[must_use]
     pub fn with(&self, changes: impl Iterator<Item = (usize, f64)>) -> Self {
         let mut field = self.clone();
         let far = SHELL_CELLS * self.spacing_m;
@@ -214,14 +204,11 @@ impl DistanceField {
         field
     }
 
-    /// Distance between neighbouring nodes, m.
-    #[must_use]
     pub fn spacing_m(&self) -> f64 {
         self.spacing_m
     }
 
-    /// Returns the field on a larger grid with the same nodes, which contains a box and a shell round the box.
-    #[must_use]
+    /// Returns the field on a larger grid with the same nodes, which contains a box and a shell round it.
     pub fn widened(&self, low: V3, high: V3) -> Self {
         let far = SHELL_CELLS * self.spacing_m;
         let reach = (high - self.middle).sup(&(self.middle - low)).add_scalar(far + 3.0 * self.spacing_m);
@@ -237,8 +224,6 @@ impl DistanceField {
         wide
     }
 
-    /// Zero level set of the nodal values, as a mesh.
-    #[must_use]
     pub fn surface(&self) -> TriMesh {
         let [x, y, z] = self.size;
         let grid = Grid {
@@ -253,8 +238,7 @@ impl DistanceField {
         TriMesh { positions, triangles: quads.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]).collect() }
     }
 
-    /// Signed distance (m) and its gradient at a point. Beyond the exact shell, the width of the shell and zero.
-    #[must_use]
+    /// Signed distance (m) and its gradient. Beyond the exact shell, the width of the shell and zero.
     pub fn value_and_gradient(&self, p: &V3) -> (f64, V3) {
         let local = self.local(p);
         let mut first = [0_usize; 3];
@@ -288,8 +272,7 @@ impl DistanceField {
         (value, gradient / self.spacing_m)
     }
 
-    /// Second derivatives of the distance at a point, 1/m. Zero beyond the exact shell.
-    #[must_use]
+    /// Second derivatives of the distance, 1/m. Zero beyond the exact shell.
     pub fn hessian(&self, p: &V3) -> Matrix3<f64> {
         let local = self.local(p);
         let mut first = [0_usize; 3];
@@ -319,8 +302,6 @@ impl DistanceField {
         Matrix3::new(xx, xy, zx, xy, yy, yz, zx, yz, zz) / (self.spacing_m * self.spacing_m)
     }
 
-    /// Serialises the field for a cache.
-    #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(HEADER_BYTES + 4 * self.values.len());
         for x in [self.middle.x, self.middle.y, self.middle.z, self.spacing_m] {
@@ -335,10 +316,6 @@ impl DistanceField {
         bytes
     }
 
-    /// Reads what [`DistanceField::to_bytes`] wrote.
-    ///
-    /// # Errors
-    /// [`FieldError`] if the length does not match the header.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, FieldError> {
         if bytes.len() < HEADER_BYTES {
             return Err(FieldError("its header is cut off"));

@@ -2,10 +2,8 @@
 
 use super::V2;
 
-/// Convex hull of `points`, counter-clockwise, without collinear points (Andrew's monotone chain).
-///
-/// Returns fewer than three distinct points as they are.
-#[must_use]
+/// Andrew's monotone chain. Counter-clockwise, without collinear points. Returns fewer than three distinct points as
+/// they are.
 pub fn convex_hull(points: &[V2]) -> Vec<V2> {
     let mut sorted = points.to_vec();
     sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -21,7 +19,6 @@ pub fn convex_hull(points: &[V2]) -> Vec<V2> {
     lower
 }
 
-/// One chain of the hull of points in sweep order, with both ends.
 fn half_hull<'a>(points: impl Iterator<Item = &'a V2>) -> Vec<V2> {
     let mut chain: Vec<V2> = Vec::new();
     for &point in points {
@@ -37,15 +34,12 @@ fn half_hull<'a>(points: impl Iterator<Item = &'a V2>) -> Vec<V2> {
     chain
 }
 
-/// Length of the closed polygon through `points`, in their unit.
-#[must_use]
 pub fn perimeter(points: &[V2]) -> f64 {
     let next = points.iter().cycle().skip(1);
     points.iter().zip(next).map(|(a, b)| (b - a).norm()).sum()
 }
 
-/// Girth of `points` as a taut tape measures it: the perimeter of their convex hull.
-#[must_use]
+/// Girth as a taut tape measures it: the perimeter of the convex hull.
 pub fn tape_girth(points: &[V2]) -> f64 {
     perimeter(&convex_hull(points))
 }

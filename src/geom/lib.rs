@@ -26,7 +26,6 @@ pub type V2 = nalgebra::Vector2<f64>;
 pub type V3 = nalgebra::Vector3<f64>;
 
 /// Cubic smooth step `3 t^2 - 2 t^3`, with zero slope at 0 and 1. `t` is clamped to 0..=1.
-#[must_use]
 pub fn smooth_step(t: f64) -> f64 {
     let t = t.clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use super::V3;
 
 /// Edges of only one triangle, each as `[lesser, greater]` vertex index, sorted.
-#[must_use]
 pub fn free_edges(triangles: &[[usize; 3]]) -> Vec<[usize; 2]> {
     let mut uses: BTreeMap<[usize; 2], u32> = BTreeMap::new();
     for t in triangles {
@@ -17,26 +16,21 @@ pub fn free_edges(triangles: &[[usize; 3]]) -> Vec<[usize; 2]> {
     uses.into_iter().filter(|(_, count)| *count == 1).map(|(ends, _)| ends).collect()
 }
 
-/// A triangle mesh with triangles counter-clockwise seen from outside.
+/// Mesh with triangles counter-clockwise seen from outside.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct TriMesh {
-    /// Vertex positions, m.
     pub positions: Vec<V3>,
-    /// Vertex indices of each triangle.
     pub triangles: Vec<[usize; 3]>,
 }
 
 impl TriMesh {
-    /// Normals of the triangles, with twice their areas as lengths, m2.
-    #[must_use]
+    /// Normals with twice the triangles' areas as lengths, m2.
     pub fn triangle_normals(&self) -> Vec<V3> {
         let corner = |i: usize| self.positions[i];
         self.triangles.iter().map(|&[a, b, c]| (corner(b) - corner(a)).cross(&(corner(c) - corner(a)))).collect()
     }
 
-    /// Unit vertex normals: means of the adjacent triangle normals, weighted by area. Zero for a vertex without
-    /// triangles.
-    #[must_use]
+    /// Unit means of the adjacent triangle normals, weighted by area. Zero for a vertex without triangles.
     pub fn vertex_normals(&self) -> Vec<V3> {
         let mut normals = vec![V3::zeros(); self.positions.len()];
         for (triangle, normal) in self.triangles.iter().zip(self.triangle_normals()) {
@@ -48,28 +42,24 @@ impl TriMesh {
     }
 
     /// Least and greatest corner of the axis-aligned bounding box. `None` for an empty mesh.
-    #[must_use]
     pub fn bounds(&self) -> Option<(V3, V3)> {
         let first = *self.positions.first()?;
         Some(self.positions.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p))))
     }
 
-    /// Enclosed volume of a closed mesh by the divergence theorem, m3.
-    #[must_use]
+    /// Volume of a closed mesh by the divergence theorem, m3.
     pub fn volume(&self) -> f64 {
         let corner = |i: usize| self.positions[i];
         self.triangles.iter().map(|&[a, b, c]| corner(a).dot(&corner(b).cross(&corner(c)))).sum::<f64>() / 6.0
     }
 
-    /// Surface area, m2.
-    #[must_use]
+    /// m2.
     pub fn area(&self) -> f64 {
         self.triangle_normals().iter().map(V3::norm).sum::<f64>() / 2.0
     }
 
     /// Mesh of the triangles with at least one vertex for which `keep` is true. Vertices and triangles keep their
     /// order, so the mesh gives the same section by any plane that meets no other triangle.
-    #[must_use]
     pub fn part(&self, keep: impl Fn(V3) -> bool) -> Self {
         let kept: Vec<bool> = self.positions.iter().map(|&p| keep(p)).collect();
         let chosen = |triangle: &&[usize; 3]| triangle.iter().any(|&vertex| kept[vertex]);
@@ -91,7 +81,6 @@ impl TriMesh {
     }
 
     /// Undirected edges, each once as `[lesser, greater]` vertex index, sorted.
-    #[must_use]
     pub fn edges(&self) -> Vec<[usize; 2]> {
         let mut edges: Vec<[usize; 2]> = self.directed_edges().into_iter().map(|[a, b]| [a.min(b), a.max(b)]).collect();
         edges.sort_unstable();
@@ -99,9 +88,8 @@ impl TriMesh {
         edges
     }
 
-    /// True if the surface is closed, consistently oriented and without branching edges: every directed edge occurs
-    /// once, and so does its reverse.
-    #[must_use]
+    /// True if every directed edge occurs once, and so does its reverse: closed, consistently oriented, without
+    /// branching edges.
     pub fn is_closed_manifold(&self) -> bool {
         let mut directed = self.directed_edges();
         directed.sort_unstable();
@@ -110,7 +98,6 @@ impl TriMesh {
         once && paired && !self.triangles.is_empty()
     }
 
-    /// The three directed edges of every triangle.
     fn directed_edges(&self) -> Vec<[usize; 2]> {
         self.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect()
     }

@@ -2,7 +2,6 @@
 
 use super::V2;
 
-/// An open polyline with cumulative arc lengths.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polyline {
     points: Vec<V2>,
@@ -11,8 +10,7 @@ pub struct Polyline {
 }
 
 impl Polyline {
-    /// Polyline through `points`. `None` for fewer than two points.
-    #[must_use]
+    /// `None` for fewer than two points.
     pub fn new(points: Vec<V2>) -> Option<Self> {
         if points.len() < 2 {
             return None;
@@ -27,33 +25,24 @@ impl Polyline {
         Some(Self { points, arcs })
     }
 
-    /// Returns the polyline with every point mapped.
-    #[must_use]
     pub fn mapped(&self, map: impl Fn(V2) -> V2) -> Self {
         let points: Vec<V2> = self.points.iter().map(|&p| map(p)).collect();
         Self::new(points).unwrap_or_else(|| self.clone())
     }
 
-    /// Vertices, from start to end.
-    #[must_use]
     pub fn points(&self) -> &[V2] {
         &self.points
     }
 
-    /// Arc length from the first point to each point.
-    #[must_use]
     pub fn arcs(&self) -> &[f64] {
         &self.arcs
     }
 
-    /// Total arc length.
-    #[must_use]
     pub fn length(&self) -> f64 {
         self.arcs[self.arcs.len() - 1]
     }
 
-    /// Point at arc length `arc` from the start, clamped to the ends.
-    #[must_use]
+    /// Point at `arc` from the start, clamped to the ends.
     pub fn at(&self, arc: f64) -> V2 {
         let last = self.points.len() - 1;
         let next = self.arcs.partition_point(|&a| a <= arc).clamp(1, last);
@@ -63,25 +52,20 @@ impl Polyline {
     }
 }
 
-/// Sides of a closed polygon, the last one back to the first point.
 fn sides(polygon: &[V2]) -> impl Iterator<Item = (V2, V2)> + '_ {
     polygon.iter().zip(polygon.iter().cycle().skip(1)).map(|(&a, &b)| (a, b))
 }
 
-/// Area of a closed polygon, positive if counter-clockwise.
-#[must_use]
+/// Positive if counter-clockwise.
 pub fn signed_area(polygon: &[V2]) -> f64 {
     0.5 * sides(polygon).map(|(a, b)| a.perp(&b)).sum::<f64>()
 }
 
-/// Perimeter of a closed polygon.
-#[must_use]
 pub fn perimeter(polygon: &[V2]) -> f64 {
     sides(polygon).map(|(a, b)| (b - a).norm()).sum()
 }
 
-/// True if `point` is inside a closed polygon (even-odd rule).
-#[must_use]
+/// Even-odd rule.
 pub fn contains(polygon: &[V2], point: &V2) -> bool {
     let crossings = sides(polygon)
         .filter(|(a, b)| (a.y > point.y) != (b.y > point.y))
@@ -90,22 +74,17 @@ pub fn contains(polygon: &[V2], point: &V2) -> bool {
     crossings % 2 == 1
 }
 
-/// Distance from `point` to the segment from `a` to `b`.
-#[must_use]
 pub fn segment_distance(a: &V2, b: &V2, point: &V2) -> f64 {
     let along = b - a;
     let share = if along.norm_squared() > 0.0 { (point - a).dot(&along) / along.norm_squared() } else { 0.0 };
     (a + along * share.clamp(0.0, 1.0) - point).norm()
 }
 
-/// Distance from `point` to the boundary of a closed polygon.
-#[must_use]
 pub fn boundary_distance(polygon: &[V2], point: &V2) -> f64 {
     sides(polygon).map(|(a, b)| segment_distance(&a, &b, point)).fold(f64::INFINITY, f64::min)
 }
 
-/// Parameters in 0..=1 of the intersection of two segments, along each. `None` if they do not meet or are parallel.
-#[must_use]
+/// Parameters of the intersection along each segment, 0..=1. `None` if they do not meet or are parallel.
 pub fn segment_meeting(a: (V2, V2), b: (V2, V2)) -> Option<(f64, f64)> {
     let (da, db, offset) = (a.1 - a.0, b.1 - b.0, b.0 - a.0);
     let cross = da.perp(&db);
@@ -116,17 +95,15 @@ pub fn segment_meeting(a: (V2, V2), b: (V2, V2)) -> Option<(f64, f64)> {
     ((0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t)).then_some((s, t))
 }
 
-/// First intersection of two sides of a closed polygon that are not neighbours. `None` if no such sides intersect.
-#[must_use]
+/// First intersection of two sides of a closed polygon that are not neighbours.
 pub fn self_crossing(polygon: &[V2]) -> Option<V2> {
     crossing_sides(polygon).map(|(_, place)| place)
 }
 
-/// First pair of sides of a closed polygon that intersect without being neighbours, and their intersection. `None` if
-/// no such sides do. A side is named by its first vertex, and the lesser comes first.
+/// First pair of sides that intersect without being neighbours, and the intersection. A side is named by its first
+/// vertex, and the lesser comes first.
 ///
 /// Sweeps over the least `x` of the sides, so that many sides cost little more than sorting them.
-#[must_use]
 pub fn crossing_sides(polygon: &[V2]) -> Option<([usize; 2], V2)> {
     let all: Vec<(V2, V2)> = sides(polygon).collect();
     let n = all.len();

@@ -2,26 +2,22 @@
 
 use super::{TriMesh, V2, V3};
 
-/// A plane with a frame. Its points are `origin + p.x u + p.y v`.
+/// Plane with a frame. Its points are `origin + p.x u + p.y v`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
-    /// A point of the plane, m.
     pub origin: V3,
-    /// First axis, a unit vector.
+    /// Unit vector.
     pub u: V3,
-    /// Second axis, a unit vector at right angles to the first.
+    /// Unit vector at right angles to `u`.
     pub v: V3,
 }
 
 impl Plane {
-    /// Horizontal plane at height `z`, with the axes of the world.
-    #[must_use]
     pub fn horizontal(z: f64) -> Self {
         Self { origin: V3::new(0.0, 0.0, z), u: V3::x(), v: V3::y() }
     }
 
     /// Plane through `origin` with the unit vector `normal`. The first axis is horizontal.
-    #[must_use]
     pub fn normal_to(origin: V3, normal: V3) -> Self {
         let horizontal = V3::new(normal.y, -normal.x, 0.0).try_normalize(1e-9).unwrap_or_else(V3::x);
         let u = if horizontal.x < 0.0 { -horizontal } else { horizontal };
@@ -29,50 +25,40 @@ impl Plane {
     }
 
     /// Unit normal: `u` cross `v`.
-    #[must_use]
     pub fn normal(&self) -> V3 {
         self.u.cross(&self.v)
     }
 
-    /// Signed distance of a point, m, positive on the side of the normal.
-    #[must_use]
+    /// Signed distance, m, positive on the side of the normal.
     pub fn distance(&self, point: V3) -> f64 {
         (point - self.origin).dot(&self.normal())
     }
 
-    /// Plane coordinates of the orthogonal projection of a point.
-    #[must_use]
     pub fn project(&self, point: V3) -> V2 {
         let offset = point - self.origin;
         V2::new(offset.dot(&self.u), offset.dot(&self.v))
     }
 
-    /// Point of space at the plane coordinates `p`.
-    #[must_use]
     pub fn lift(&self, p: V2) -> V3 {
         self.origin + self.u * p.x + self.v * p.y
     }
 }
 
-/// One connected outline of a section.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
-    /// Points in plane coordinates, m. The first is not repeated.
+    /// Plane coordinates; the first point is not repeated.
     pub points: Vec<V2>,
-    /// True if the outline is closed. An open outline ends at a hole of the mesh.
+    /// An open outline ends at a hole of the mesh.
     pub closed: bool,
 }
 
 impl Outline {
-    /// Least and greatest coordinates.
-    #[must_use]
     pub fn bounds(&self) -> (V2, V2) {
         let first = self.points.first().copied().unwrap_or_else(V2::zeros);
         self.points.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)))
     }
 
-    /// True if `point` lies inside, by the even-odd rule. An open outline is closed by a chord.
-    #[must_use]
+    /// Even-odd rule. An open outline is closed by a chord.
     pub fn contains(&self, point: V2) -> bool {
         let next = self.points.iter().cycle().skip(1);
         let crossings = self.points.iter().zip(next).filter(|(a, b)| {
@@ -82,28 +68,23 @@ impl Outline {
     }
 }
 
-/// Mesh edge that the plane cuts, by its vertices in increasing order.
+/// Mesh edge that the plane cuts, the lesser vertex first.
 type CutEdge = (usize, usize);
 
-/// Section of `mesh` by `plane`.
-///
 /// A vertex in the plane counts as above it. Every triangle therefore gives one segment or none, and all outlines of a
 /// closed manifold close.
-#[must_use]
 pub fn section(mesh: &TriMesh, plane: &Plane) -> Vec<Outline> {
     let normal = plane.normal();
     let heights: Vec<f64> = mesh.positions.iter().map(|p| (p - plane.origin).dot(&normal)).collect();
     cut(&mesh.positions, &mesh.triangles, plane, |vertex| heights[vertex])
 }
 
-/// Section by `plane` of some `triangles` of the vertices `positions`.
-#[must_use]
 pub fn section_of(positions: &[V3], triangles: &[[usize; 3]], plane: &Plane) -> Vec<Outline> {
     let normal = plane.normal();
     cut(positions, triangles, plane, |vertex| (positions[vertex] - plane.origin).dot(&normal))
 }
 
-/// Section by `plane`, where `height` is the signed distance of a vertex from the plane.
+/// `height` is the signed distance of a vertex from the plane.
 fn cut(positions: &[V3], triangles: &[[usize; 3]], plane: &Plane, height: impl Fn(usize) -> f64) -> Vec<Outline> {
     let mut links: Vec<(CutEdge, CutEdge)> = Vec::new();
     for &[a, b, c] in triangles {
@@ -133,8 +114,7 @@ fn cut(positions: &[V3], triangles: &[[usize; 3]], plane: &Plane, height: impl F
         .collect()
 }
 
-/// Connects cut edges by links, each from one cut edge to the next. Returns chains, open ones first, with true for a
-/// closed chain.
+/// Connects cut edges by links. Returns chains, open ones first, with true for a closed chain.
 fn chain(mut links: Vec<(CutEdge, CutEdge)>) -> Vec<(Vec<CutEdge>, bool)> {
     links.sort_unstable();
     // Where sheets of a mesh meet in an edge, the edge is cut twice, and the last link counts.

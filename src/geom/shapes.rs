@@ -4,8 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::{TriMesh, V3};
 
-/// A sphere about the origin, with `rings` bands from pole to pole and twice as many sectors.
-#[must_use]
+/// Sphere about the origin, with `rings` bands from pole to pole and twice as many sectors.
 pub fn sphere(radius_m: f64, rings: usize) -> TriMesh {
     let profile: Vec<(f64, f64)> = (0..=rings)
         .map(|i| {
@@ -16,9 +15,8 @@ pub fn sphere(radius_m: f64, rings: usize) -> TriMesh {
     revolve(&profile, 2 * rings)
 }
 
-/// A closed surface of revolution about z. `profile` has (radius, height) from the bottom pole to the top pole, in m.
-/// The first and the last radius count as zero.
-#[must_use]
+/// Surface of revolution about z. `profile` has (radius, height) from the bottom pole to the top pole, m. The first and
+/// the last radius count as zero.
 pub fn revolve(profile: &[(f64, f64)], sectors: usize) -> TriMesh {
     let last = profile.len() - 1;
     let mut mesh = TriMesh { positions: vec![V3::new(0.0, 0.0, profile[0].1)], triangles: Vec::new() };

@@ -16,23 +16,17 @@ pub struct Surface {
     mesh: ParryMesh,
 }
 
-/// Projection of a point onto the surface.
 struct Projection {
     is_inside: bool,
-    /// Distance from the surface up to rounding, m.
+    /// Distance from the surface up to rounding.
     about_m: f64,
 }
 
-/// Error of a mesh that does not bound a solid.
 #[derive(Debug, thiserror::Error)]
 #[error("the surface cannot be used for distances: {0}")]
 pub struct SurfaceError(String);
 
 impl Surface {
-    /// Prepares a closed, outward-oriented mesh.
-    ///
-    /// # Errors
-    /// [`SurfaceError`] if the mesh is empty or is not a closed, oriented surface.
     pub fn new(mesh: &TriMesh) -> Result<Self, SurfaceError> {
         let vertices = mesh.positions.iter().map(to_parry).collect();
         let index = |i: usize| u32::try_from(i).map_err(|_| SurfaceError("more than 2^32 vertices".into()));
@@ -45,28 +39,24 @@ impl Surface {
             .map_err(|e| SurfaceError(e.to_string()))
     }
 
-    /// Distance to the surface, m, negative inside.
-    #[must_use]
+    /// m, negative inside.
     pub fn signed_distance(&self, point: &V3) -> f64 {
         let Projection { is_inside, about_m } = self.project(point);
         let (distance_m, _) = self.nearest_within(point, about_m);
         if is_inside { -distance_m } else { distance_m }
     }
 
-    /// Depth of a point inside the surface, m. `None` for a point outside, which costs less than its distance.
-    #[must_use]
+    /// Depth inside the surface, m. `None` for a point outside, which costs less than its distance.
     pub fn depth(&self, point: &V3) -> Option<f64> {
         let Projection { is_inside, about_m } = self.project(point);
         is_inside.then(|| self.nearest_within(point, about_m).0)
     }
 
-    /// True if a point is inside, by the pseudo-normal of the nearest feature.
-    #[must_use]
+    /// Decides by the pseudo-normal of the nearest feature.
     pub fn is_inside(&self, point: &V3) -> bool {
         self.project(point).is_inside
     }
 
-    /// Projects a point onto the surface.
     fn project(&self, point: &V3) -> Projection {
         let projection = self.mesh.project_local_point(to_parry(point), false);
         let about_m = f64::from((projection.point - to_parry(point)).length());
@@ -75,7 +65,6 @@ impl Surface {
 
     /// Unsigned distance to the surface, m, and the nearest triangle. `most_m` is an upper bound of the distance up to
     /// rounding. A tighter bound makes the search faster and does not change a bit of the result.
-    #[must_use]
     pub fn nearest_within(&self, point: &V3, most_m: f64) -> (f64, Option<u32>) {
         let p = to_parry(point);
         #[allow(clippy::cast_possible_truncation)]
@@ -87,9 +76,7 @@ impl Surface {
         found.map_or((most_m, None), |(index, (distance, ()))| (f64::from(distance), Some(index)))
     }
 
-    /// Distance of a point from a triangle, m, by the index of the triangle in the mesh. `None` if there is no such
-    /// triangle.
-    #[must_use]
+    /// Distance from a triangle of the mesh, m. `None` if there is no such triangle.
     pub fn distance_to(&self, triangle: u32, point: &V3) -> Option<f32> {
         self.distance_of(triangle, &from_parry(to_parry(point)))
     }

@@ -3,14 +3,12 @@
 use super::V3;
 
 /// Sorted corners, whatever the orientation of the triangle, so that mirrored triangles are rounded alike.
-#[must_use]
 pub fn sorted<T: Ord>(mut corners: [T; 3]) -> [T; 3] {
     corners.sort_unstable();
     corners
 }
 
 /// Barycentric coordinates of the point of a triangle nearest to `p` [Ericson 2005, 5.1.5].
-#[must_use]
 pub fn nearest(p: &V3, [a, b, c]: &[V3; 3]) -> [f64; 3] {
     let weights = |wb: f64, wc: f64| [1.0 - (wb + wc), wb, wc];
     let (ab, ac, ap) = (b - a, c - a, p - a);

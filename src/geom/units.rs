@@ -4,21 +4,16 @@
 /// Standard gravity, m/s2.
 pub const GRAVITY: f64 = 9.80665;
 
-/// Metres to millimetres.
-#[must_use]
 pub fn mm(metres: f64) -> f64 {
     metres * 1e3
 }
 
-/// Millimetres to metres.
-#[must_use]
 pub fn from_mm(millimetres: f64) -> f64 {
     millimetres * 1e-3
 }
 
-/// Formats a number with at most `digits` significant digits and no trailing zeros. Very small and very large numbers
-/// get an exponent.
-#[must_use]
+/// Formats with at most `digits` significant digits and no trailing zeros. Very small and very large numbers get an
+/// exponent.
 pub fn significant(number: f64, digits: i32) -> String {
     if number == 0.0 || !number.is_finite() {
         return number.to_string();
@@ -32,8 +27,7 @@ pub fn significant(number: f64, digits: i32) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
-/// Formats a number with its sign and one decimal. A number that rounds to 0 is `+0.0`.
-#[must_use]
+/// Formats with sign and one decimal. A number that rounds to 0 is `+0.0`.
 pub fn signed_tenths(number: f64) -> String {
     // `-0.0` becomes `0.0`.
     format!("{:+.1}", (number * 10.0).round() / 10.0 + 0.0)

@@ -14,15 +14,13 @@ const LEAF: usize = 8;
 /// stays below 0.02 in the tests.
 const FAR: f64 = 2.5;
 
-/// Winding number of a surface round a point: 1 inside a closed mesh with outward normals, 0 outside [van Oosterom &
-/// Strackee 1983: solid angles].
-#[must_use]
+/// 1 inside a closed mesh with outward normals, 0 outside [van Oosterom & Strackee 1983: solid angles].
 pub fn winding_number(mesh: &TriMesh, point: V3) -> f64 {
     let angle = |triangle: &[usize; 3]| solid_angle(triangle.map(|vertex| mesh.positions[vertex]), point);
     mesh.triangles.iter().map(angle).sum::<f64>() / (4.0 * PI)
 }
 
-/// Solid angle of a triangle seen from a point, positive where the point is behind the triangle.
+/// Positive where the point is behind the triangle.
 fn solid_angle(corners: [V3; 3], point: V3) -> f64 {
     let [a, b, c] = corners.map(|corner| corner - point);
     let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
@@ -30,11 +28,10 @@ fn solid_angle(corners: [V3; 3], point: V3) -> f64 {
     2.0 * a.dot(&b.cross(&c)).atan2(below)
 }
 
-/// Node of the hierarchy: a part of the surface.
 struct Part {
     centre: V3,
     radius_m: f64,
-    /// Sum of the area vectors of the triangles (area times unit normal), m2.
+    /// Sum of the triangles' areas times unit normals.
     dipole_m2: V3,
     /// Range `from..to` of the triangles.
     from: usize,
@@ -43,15 +40,14 @@ struct Part {
     second: Option<usize>,
 }
 
-/// A surface prepared for many evaluations.
+/// Surface prepared for many evaluations.
 pub struct Winding {
     triangles: Vec<[V3; 3]>,
     parts: Vec<Part>,
 }
 
 impl Winding {
-    /// Prepares a mesh, which may have openings.
-    #[must_use]
+    /// The mesh may have openings.
     pub fn new(mesh: &TriMesh) -> Self {
         let triangles = mesh.triangles.iter().map(|triangle| triangle.map(|vertex| mesh.positions[vertex]));
         let mut winding = Self { triangles: triangles.collect(), parts: Vec::new() };
@@ -84,8 +80,7 @@ impl Winding {
         number
     }
 
-    /// Winding number round a point, within 0.02.
-    #[must_use]
+    /// Approximate to 0.02.
     pub fn number(&self, point: V3) -> f64 {
         let mut angle = 0.0;
         let mut open: Vec<usize> = if self.parts.is_empty() { Vec::new() } else { vec![0] };

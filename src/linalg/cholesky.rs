@@ -18,23 +18,22 @@ use super::quad::Quad;
 use super::simd::{self, Kernel, Simd, each};
 use packed::{Blockwise, Packed};
 
-/// Degrees of freedom of a patch: rows of a block.
+/// Degrees of freedom of a patch.
 pub const SIZE: usize = 6;
 
-/// A 6x6 block by columns.
+/// Block by columns.
 pub type Dense = [[f64; SIZE]; SIZE];
 /// Forces and moments on a patch, or its translation and rotation.
 pub type Row = [f32; SIZE];
 
-/// Symbolic factor: order of elimination and sparsity pattern. Valid for all matrices with the same pattern.
+/// Order of elimination and sparsity pattern, valid for all matrices with the same pattern.
 pub struct Symbolic {
-    /// Position of each row of the matrix in the order of elimination.
+    /// Position of each row in the order of elimination.
     place: Vec<usize>,
-    /// Index of the first block below the diagonal of each column, then the number of blocks.
+    /// Index of each column's first block below the diagonal, then the number of blocks.
     starts: Vec<usize>,
     /// Rows of these blocks, ascending in each column.
     rows: Vec<usize>,
-    /// Block of the factor to which each pair of the matrix is added.
     entries: Vec<Entry>,
 }
 
@@ -42,15 +41,14 @@ pub struct Symbolic {
 #[derive(Clone, Copy)]
 struct Entry {
     column: usize,
-    /// Index of the block below the diagonal. `None` for a block on the diagonal.
+    /// Index of the block below the diagonal. `None` on the diagonal.
     below: Option<usize>,
-    /// True if the first row of the pair is eliminated later. Its block is then added as it is, otherwise transposed.
+    /// True if the pair's first row is eliminated later. Its block is then added as it is, otherwise transposed.
     is_upright: bool,
 }
 
-/// Numeric factor.
 pub struct Numeric {
-    /// Inverses of the pivots, the blocks of `D`.
+    /// Inverses of the blocks of `D`.
     pivots: Vec<Packed>,
     /// Blocks of `L` below the diagonal.
     below: Vec<Packed>,
@@ -59,7 +57,6 @@ pub struct Numeric {
 impl Symbolic {
     /// Analyses a symmetric matrix of `count` block rows with blocks at `pairs`, the diagonal included, the smaller row
     /// first.
-    #[must_use]
     pub fn new(count: usize, pairs: &[[usize; 2]]) -> Self {
         let (place, columns) = eliminate(count, pairs);
         let mut starts = vec![0];
@@ -81,25 +78,21 @@ impl Symbolic {
         Entry { column, below: (p != q).then(|| self.below(column, p.max(q))), is_upright: p > q }
     }
 
-    /// Each column with the range of its blocks below the diagonal.
     fn columns(&self) -> impl DoubleEndedIterator<Item = (usize, std::ops::Range<usize>)> + ExactSizeIterator {
         self.starts.windows(2).map(|ends| ends[0]..ends[1]).enumerate()
     }
 
-    /// Index of the block below the diagonal in `row` of `column`.
     fn below(&self, column: usize, row: usize) -> usize {
         let rows = &self.rows[self.starts[column]..self.starts[column + 1]];
         self.starts[column] + rows.binary_search(&row).expect("elimination has filled it in")
     }
 
-    /// Factorises the matrix with `blocks` at the pairs, that of `[a, b]` in the rows of `a`. `None` if the matrix is
-    /// not positive definite.
-    #[must_use]
+    /// The block at `[a, b]` is that in the rows of `a`. `None` if the matrix is not positive definite.
     pub fn factorise(&self, blocks: &[Dense]) -> Option<Numeric> {
         simd::dispatch(Factorisation { symbolic: self, blocks })
     }
 
-    /// Solves in place. The rows of `x` are in the order of the matrix.
+    /// Solves in place. `x` is in the order of the matrix.
     #[inline(always)]
     pub fn solve<S: Simd>(&self, simd: S, numeric: &Numeric, x: &mut [Row]) {
         let blockwise = Blockwise(simd);
@@ -185,7 +178,7 @@ impl Kernel for Factorisation<'_> {
     }
 }
 
-/// A 6x6 block by columns, each column padded with zeros to two registers of four.
+/// Block by columns, each padded with zeros to two registers of four.
 #[derive(Clone, Copy, Default)]
 #[repr(align(32))]
 struct Padded([[f64; 8]; SIZE]);
@@ -241,8 +234,8 @@ fn product<S: Simd>(simd: S, a: &Padded, b: &Padded) -> Padded {
     negative
 }
 
-/// Eliminates rows in the order of minimum degree. Returns the position of each row, and for each position the rows
-/// that its elimination couples.
+/// Eliminates in the order of minimum degree. Returns the position of each row, and for each position the rows that its
+/// elimination couples.
 fn eliminate(count: usize, pairs: &[[usize; 2]]) -> (Vec<usize>, Vec<Vec<usize>>) {
     let mut neighbours = vec![BTreeSet::new(); count];
     for &[a, b] in pairs.iter().filter(|[a, b]| a != b) {
@@ -270,7 +263,7 @@ fn transposed(block: &Dense) -> Dense {
     std::array::from_fn(|c| std::array::from_fn(|r| block[r][c]))
 }
 
-/// Inverse `L^-1` of the Cholesky factor of `A = L L^T`. `None` if `A` is not positive definite.
+/// `L^-1` of `A = L L^T`. `None` if `A` is not positive definite.
 fn inverse_root(a: &Dense) -> Option<Dense> {
     let mut l = [[0.0; SIZE]; SIZE];
     for c in 0..SIZE {
@@ -298,7 +291,6 @@ mod tests {
     use super::*;
     use crate::simd::Plain;
 
-    /// A positive definite matrix with blocks at `pairs`.
     fn matrix(pairs: &[[usize; 2]]) -> Vec<Dense> {
         let draw: Vec<f64> = (0..pairs.len() * 36).map(|k| (37.0 * k as f64).sin()).collect();
         let degree = |a: usize| pairs.iter().filter(|p| p.contains(&a)).count() as f64;

@@ -23,44 +23,38 @@ geom::constants! {
     "linalg.coarse",
     /// Least distance between the centres of patches, in edges. A patch then has about twenty vertices.
     const APART: usize = 4;
-    /// Least distance in large cloth, where the factor between patches would cost most of a solve.
+    /// As `APART`, in large cloth, where the factor between patches would cost most of a solve.
     const APART_IN_LARGE: usize = 5;
     /// Number of vertices from which cloth is large: the solves between patches of [`APART`] edges then cost more than
     /// the iterations that they save.
     const LARGE: usize = 12_000;
-    /// Share of the stiffness of a patch (summed over the three axes of translation, and over those of rotation) that
-    /// is added to each axis. Without it, a patch whose vertices lie on a line could turn about that line freely.
+    /// Share of a patch's stiffness (summed over the axes of translation, and over those of rotation) that is added to
+    /// each axis. Without it, a patch whose vertices lie on a line could turn about it freely.
     const REGULARISATION: f64 = 1e-6;
 }
 
-/// A preconditioned residual `P r` in its two parts, which are to be added.
+/// Preconditioned residual `P r` in two parts, which are to be added.
 #[derive(Clone, Copy)]
 pub struct Correction<'a> {
-    /// Rigid motion of each patch.
     pub motions: &'a [Row],
-    /// Displacement of each vertex.
     pub z: &'a [f32x4],
 }
 
-/// The patches of a cloth and their couplings.
+/// Patches of a cloth and their couplings.
 pub struct CoarseSpace {
-    /// Patch of each vertex.
     patch_of: Vec<usize>,
     count: usize,
-    /// Vertices, patch by patch.
     members: Vec<u32>,
     /// Beginning of each patch in `members`, then the end of the last.
     ends: Vec<usize>,
-    /// Pairs of coupled patches, the smaller first. Each patch is coupled with itself as well.
+    /// Coupled patches, the smaller first. Each is coupled with itself as well.
     pairs: PairList,
-    /// Index of the pair of patches of each membrane pair, each bending pair and each spring.
+    /// Index of the pair of patches of each membrane pair, bending pair and spring.
     slots: [Vec<usize>; 3],
     symbolic: Symbolic,
 }
 
 impl CoarseSpace {
-    /// Divides a cloth into patches.
-    #[must_use]
     pub fn new(operator: &Operator) -> Self {
         let springs: Vec<[usize; 2]> = operator.springs.iter().map(|s| s.0).collect();
         let lists = [operator.membrane_pairs.pairs(), operator.bending_pairs.pairs(), &springs];
@@ -82,9 +76,8 @@ impl CoarseSpace {
         Self { patch_of, count, members, ends, pairs, slots, symbolic }
     }
 
-    /// Assembles and factorises the stiffness between the patches, with the cloth at `x`. `diagonal` are the diagonal
-    /// blocks of the operator.
-    #[must_use]
+    /// Factorises the stiffness between the patches, with the cloth at `x`. `diagonal` are the diagonal blocks of the
+    /// operator.
     pub fn factorise(&self, operator: &Operator, diagonal: &[Matrix3<f64>], x: &[V3]) -> CoarseFactor {
         let arms = self.arms(x);
         let mut blocks = vec![Matrix6::zeros(); self.pairs.pairs().len()];
@@ -120,7 +113,7 @@ impl CoarseSpace {
         CoarseFactor { arms, factor: self.symbolic.factorise(&blocks) }
     }
 
-    /// Vector from the centre of the patch of each vertex to the vertex, m.
+    /// Vector from the centre of its patch to each vertex.
     fn arms(&self, x: &[V3]) -> Vec<V3> {
         let mut sums = vec![(V3::zeros(), 0.0); self.count];
         for (a, p) in self.patch_of.iter().zip(x) {
@@ -130,8 +123,7 @@ impl CoarseSpace {
         self.patch_of.iter().zip(x).map(|(a, p)| p - sums[*a].0 / sums[*a].1).collect()
     }
 
-    /// Adds the contacts between patches that are coupled already. For other patches, contacts count in the diagonal
-    /// blocks only.
+    /// Adds contacts between patches that are coupled already. Other contacts count in the diagonal blocks only.
     fn add_contacts(&self, operator: &Operator, arms: &[V3], blocks: &mut [Matrix6<f64>]) {
         for contact in &operator.contacts {
             let wrench = |k: usize| {
@@ -153,8 +145,7 @@ impl CoarseSpace {
         }
     }
 
-    /// Computes the rigid motions of the patches under the forces `r`, into `motions`. Returns the work of the forces
-    /// along these motions.
+    /// Computes the rigid motions of the patches under the forces `r`. Returns the work of the forces along them.
     #[inline(always)]
     pub fn restrict_and_solve<S: Simd>(
         &self,
@@ -202,7 +193,6 @@ impl CoarseSpace {
         }
     }
 
-    /// Vertices of each patch, with their arms.
     #[inline(always)]
     fn members<'a>(&'a self, coarse: &'a CoarseFactor) -> impl Iterator<Item = (&'a [u32], &'a [Arm])> {
         self.ends.windows(2).map(|ends| (&self.members[ends[0]..ends[1]], &coarse.arms[ends[0]..ends[1]]))
@@ -220,7 +210,7 @@ impl Arm {
         Self([f32x4::from([y, z, x, 0.0]), f32x4::from([z, x, y, 0.0])])
     }
 
-    /// Adds the two terms of the moment `arm x force`, of which the second must be subtracted from the first.
+    /// Adds the two terms of the moment `arm x force`; the second is to be subtracted from the first.
     #[inline(always)]
     fn add_moment<S: Simd>(&self, simd: S, force: f32x4, [plus, minus]: [f32x4; 2]) -> [f32x4; 2] {
         let [x, y, z, _] = force.to_array();
@@ -228,16 +218,15 @@ impl Arm {
         [simd.mul_add(self.0[0], from_z, plus), simd.mul_add(self.0[1], from_y, minus)]
     }
 
-    /// Adds the displacement `turn x arm` to `to`. The rotation is given in the cyclic orders (y, z, x) and (z, x, y).
+    /// Adds `turn x arm` to `to`. The rotation is given in the cyclic orders (y, z, x) and (z, x, y).
     #[inline(always)]
     fn add_motion<S: Simd>(&self, simd: S, [from_y, from_z]: [f32x4; 2], to: f32x4) -> f32x4 {
         simd.neg_mul_add(from_z, self.0[0], simd.mul_add(from_y, self.0[1], to))
     }
 }
 
-/// Factorised stiffness between patches.
 pub struct CoarseFactor {
-    /// Vector from the centre of the patch to each vertex, patch by patch.
+    /// Patch by patch.
     arms: Vec<Arm>,
     /// `None` if the stiffness is not positive definite.
     factor: Option<Numeric>,
@@ -248,8 +237,8 @@ fn six([[a, b, c, _], [x, y, z, _]]: [[f32; 4]; 2]) -> Row {
     [a, b, c, x, y, z]
 }
 
-/// Coarse block `P^T m Q` of two vertices coupled by `m`, at `p` and `q` from the centres of their patches, with their
-/// rigid motions `P = [I, -[p]x]` and `Q = [I, -[q]x]`.
+/// Coarse block `P^T m Q` of two vertices at `p` and `q` from the centres of their patches, with their rigid motions `P
+/// = [I, -[p]x]` and `Q = [I, -[q]x]`.
 fn between(p: &V3, m: &Matrix3<f64>, q: &V3) -> Matrix6<f64> {
     let [p, q] = [p.cross_matrix(), q.cross_matrix()];
     let (pm, mq) = (p * m, m * q);
@@ -293,13 +282,12 @@ mod tests {
     use crate::simd::{self, Kernel, Plain};
     use wide::f64x4;
 
-    /// A sheet of `w` by `h` vertices, bent, 20 mm apart.
+    /// Bent sheet, 20 mm apart.
     fn sheet(w: usize, h: usize) -> Vec<V3> {
         let grid = |v: usize| [v % w, v / w].map(|k| 0.02 * k as f64);
         (0..w * h).map(grid).map(|[x, y]| V3::new(x, y, 0.3 * x * x)).collect()
     }
 
-    /// Pairs of a sheet's vertices that are `apart` from each other along either side.
     fn pairs(w: usize, h: usize, apart: usize) -> PairList {
         let across = (0..w * h).filter(|v| v % w + apart < w).map(|v| [v, v + apart]);
         PairList::new(across.chain((0..w * (h - apart)).map(|v| [v, v + apart * w])))
@@ -352,7 +340,6 @@ mod tests {
         }
     }
 
-    /// Solution between the patches for given forces.
     struct Answer<'a>(&'a CoarseSpace, &'a CoarseFactor, &'a [f32x4]);
 
     impl Kernel for Answer<'_> {

@@ -32,7 +32,7 @@ struct Arcs<'a, Q: Quad> {
     drawn: Vec<Q::Scalar>,
 }
 
-/// A [`Contact4`] whose direction is scaled by the root of its stiffness.
+/// [`Contact4`] whose direction is scaled by the root of its stiffness.
 struct Contact<Q> {
     vertices: [usize; 4],
     weights: [Q; 4],
@@ -40,8 +40,6 @@ struct Contact<Q> {
 }
 
 impl<'a, Q: Quad> CsrMatrix<'a, Q> {
-    /// Converts an operator into rows.
-    #[must_use]
     pub fn new(operator: &'a Operator) -> Self {
         let contact = |c: &Contact4| Contact {
             vertices: c.vertices,
@@ -195,7 +193,6 @@ mod tests {
     use crate::simd::{self, Plain};
     use geom::V3;
 
-    /// Products by the definition: pairs on differences, one by one.
     fn expected(operator: &Operator, x: &[V3]) -> Vec<V3> {
         let mut y = operator.contact_forces(x);
         let mut couple = |[i, j]: [usize; 2], block: Matrix3<f64>| {

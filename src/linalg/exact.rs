@@ -14,15 +14,13 @@ use super::operator::Operator;
 use super::pairs::PairList;
 use super::quad::{self, Quad};
 
-/// Sparsity pattern of a stiffness, symbolic factor, and latest numeric factor.
 pub struct Factor {
     /// Lower triangle by columns, with three rows and columns per vertex.
     pattern: SymbolicSparseColMat<usize>,
     symbolic: SymbolicLlt<usize>,
     numeric: Option<Llt<usize, f64>>,
-    /// Vertex pairs with a block.
     pairs: PairList,
-    /// Index of the block of each membrane pair, each bending pair and each spring.
+    /// Index of the block of each membrane pair, bending pair and spring.
     slots: [Vec<usize>; 3],
     /// Rank of the block of each pair among those of its smaller vertex.
     rank: Vec<usize>,
@@ -30,11 +28,8 @@ pub struct Factor {
 }
 
 impl Factor {
-    /// Analyses the sparsity pattern of an operator.
-    ///
     /// # Panics
     /// If the memory is exhausted.
-    #[must_use]
     pub fn new(operator: &Operator) -> Self {
         // Other threads run other simulations, so this one stays single. Its sums then do not depend on the number of
         // threads.
@@ -68,8 +63,7 @@ impl Factor {
         Self { pattern, symbolic, numeric: None, pairs, slots, rank, values }
     }
 
-    /// Factorises the operator. Contacts of the cloth with itself come and go, so only their diagonal blocks are
-    /// included.
+    /// Contacts of the cloth with itself come and go, so only their diagonal blocks are included.
     pub fn refresh(&mut self, operator: &Operator) {
         self.values.fill(0.0);
         for (v, block) in operator.own_blocks().iter().enumerate() {
@@ -90,8 +84,8 @@ impl Factor {
         self.numeric = Llt::try_new_with_symbolic(self.symbolic.clone(), matrix, Side::Lower).ok();
     }
 
-    /// Adds the off-diagonal block `K_ij`, `i < j`, and subtracts it from both diagonal blocks, because rows of the
-    /// stiffness sum to zero.
+    /// Adds the off-diagonal block `K_ij`, `i < j`, and subtracts it from both diagonal blocks, because rows sum to
+    /// zero.
     fn add_pair(&mut self, slot: usize, block: &Matrix3<f64>) {
         let [i, j] = self.pairs.pairs()[slot];
         for c in 0..3 {
@@ -104,7 +98,7 @@ impl Factor {
         self.add_diagonal(j, &-block);
     }
 
-    /// Adds to a diagonal block, whose lower triangle is stored.
+    /// Stores the lower triangle.
     fn add_diagonal(&mut self, v: usize, block: &Matrix3<f64>) {
         for c in 0..3 {
             let start = self.pattern.col_ptr()[3 * v + c];
@@ -115,7 +109,7 @@ impl Factor {
         }
     }
 
-    /// Computes `z = K^-1 r` with the stiffness of the last [`Factor::refresh`], or `z = r` before the first.
+    /// Uses the stiffness of the last [`Factor::refresh`]; `z = r` before the first.
     pub fn solve(&self, r: &[f64x4], z: &mut [f64x4]) {
         let mut flat: Vec<f64> = r.iter().flat_map(|v| <[f64; 3]>::from(v.vector())).collect();
         if let Some(factor) = &self.numeric {

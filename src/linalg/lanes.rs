@@ -4,17 +4,12 @@ use std::ops::{Add, Div, Mul, Sub};
 
 use super::simd::Simd;
 
-/// Number, or vector of numbers, in which formulas are written.
+/// Number or vector of numbers, in which formulas are written.
 pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
-    /// Broadcasts a constant to as many lanes as `self` has.
     fn splat(self, number: f64) -> Self;
-    /// `self * factor + sum`.
     fn mul_add(self, factor: Self, sum: Self) -> Self;
-    /// Lesser of two numbers, lane by lane.
     fn min(self, other: Self) -> Self;
-    /// Greater of two numbers, lane by lane.
     fn max(self, other: Self) -> Self;
-    /// Square root, lane by lane.
     fn sqrt(self) -> Self;
 }
 
@@ -45,7 +40,7 @@ impl Number for f64 {
     }
 }
 
-/// Four numbers in a vector register, with the instruction set to compute with.
+/// Four numbers in a register, with the instruction set to compute with.
 #[derive(Clone, Copy)]
 pub struct Lanes<S: Simd> {
     four: S::F64x4,
@@ -53,19 +48,16 @@ pub struct Lanes<S: Simd> {
 }
 
 impl<S: Simd> Lanes<S> {
-    /// Loads four numbers into a register.
     #[inline(always)]
     pub fn of(simd: S, numbers: [f64; 4]) -> Self {
         Self { four: simd.f64s(numbers), simd }
     }
 
-    /// Rounds the numbers to single precision.
     #[inline(always)]
     pub fn single(self) -> [f32; 4] {
         self.simd.to_f32s(self.four)
     }
 
-    /// The four numbers, first lane first.
     #[inline(always)]
     pub fn numbers(self) -> [f64; 4] {
         self.simd.to_f64s(self.four)

@@ -26,8 +26,6 @@ pub use linear::LinearSolver;
 pub use operator::{Contact4, Operator};
 pub use pairs::PairList;
 
-/// Constants of this crate that decide results.
-#[must_use]
 pub fn constants() -> Vec<Constant> {
     [coarse::CONSTANTS, linear::CONSTANTS].concat()
 }

@@ -13,7 +13,6 @@ use super::quad::{self, Block, Quad};
 use super::simd::Simd;
 use geom::V3;
 
-/// Solver of the linear systems of a cloth.
 pub enum LinearSolver {
     /// Block-Jacobi with a coarse space of rigid patches, for garments. Solutions are approximate.
     Patches(Option<Box<TwoLevel>>),
@@ -25,7 +24,7 @@ geom::constants! {
     "linalg.linear",
     /// Iterations with an old factor after which a new factor is made. They cost about as much as a factorisation.
     const PATIENCE: usize = 6;
-    /// Number of products that are summed in single precision. The sums of longer vectors are accumulated in double.
+    /// Number of products summed in single precision. Longer sums are accumulated in double.
     const SUMMED: usize = 256;
     /// Iterations in excess that cost as much as a new factor of the coarse space.
     const FACTOR_COST: usize = 12;
@@ -38,19 +37,15 @@ impl Default for LinearSolver {
 }
 
 impl LinearSolver {
-    /// Solver with a Cholesky factor of the whole stiffness.
-    #[must_use]
     pub fn exact() -> Self {
         Self::Factor(None)
     }
 
-    /// True if the solver factorises the whole stiffness.
-    #[must_use]
     pub fn is_exact(&self) -> bool {
         matches!(self, Self::Factor(_))
     }
 
-    /// Solves `K x = b` approximately, starting from `x`, with the cloth at `positions`.
+    /// Solves `K x = b` approximately, starting from `x`.
     pub fn solve(&mut self, operator: &Operator, positions: &[V3], b: &[V3], x: &mut [V3], params: &PcgParams) {
         match self {
             Self::Patches(kept) => {
@@ -77,7 +72,6 @@ pub fn jacobi(operator: &Operator, b: &[V3], x: &mut [V3], params: &PcgParams) {
     pcg::solve(&CsrMatrix::new(operator), Jacobi::new(&operator.diagonal_blocks()), b, x, params);
 }
 
-/// Inverses of the diagonal blocks.
 struct Jacobi(Vec<Block<f32x4>>);
 
 impl Jacobi {
@@ -144,12 +138,10 @@ impl TwoLevel {
     }
 }
 
-/// Sum of block-Jacobi and coarse space.
 struct TwoLevelPreconditioner<'a> {
     jacobi: Jacobi,
     patches: &'a CoarseSpace,
     coarse: &'a CoarseFactor,
-    /// Rigid motions of the patches.
     motions: Vec<Row>,
 }
 

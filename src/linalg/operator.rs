@@ -13,16 +13,16 @@ use super::quad::{self, Block};
 use super::stencil::Stencils;
 use geom::V3;
 
-/// Rank-one stiffness `k a a^T` of four vertices along one direction, with `a = (w_0 n, ..., w_3 n)`.
+/// Rank-one stiffness `k a a^T` with `a = (w_0 n, ..., w_3 n)`.
 #[derive(Clone, Copy, Debug)]
 pub struct Contact4 {
-    /// Four vertices. A vertex of weight zero may repeat another.
+    /// A vertex of weight zero may repeat another.
     pub vertices: [usize; 4],
-    /// Weights of the vertices. They sum to zero between layers of cloth, and to one on the body.
+    /// They sum to zero between layers of cloth, and to one on the body.
     pub weights: [f64; 4],
     /// Unit direction of the contact force.
     pub normal: V3,
-    /// Stiffness, N/m.
+    /// N/m.
     pub stiffness: f64,
 }
 
@@ -35,17 +35,15 @@ impl Contact4 {
     }
 }
 
-/// Stiffness of triangle sides that are arcs (`sim::cloth::arcs`), in addition to that of their chords, which is in the
+/// Stiffness of triangle sides that are arcs (`sim::cloth::arcs`), in addition to that of their chords in the
 /// membrane's blocks.
 #[derive(Clone, Debug)]
 pub struct ArcStiffness<'a> {
-    /// Vertex pair of each side.
     pub pairs: &'a PairList,
-    /// Stencil of each side: curvature along the side as a weighted sum of positions.
+    /// Curvature along each side as a weighted sum of positions.
     pub stencils: &'a Stencils,
-    /// The three sides of each triangle.
     pub triangles: &'a [[u32; 3]],
-    /// Vector from the first vertex of each side to the second, m.
+    /// From the first vertex of each side to the second.
     pub chords: Vec<V3>,
     /// Derivative of half of each squared arc length with respect to the sum of the stencil, m.
     pub slopes: Vec<V3>,
@@ -56,29 +54,26 @@ pub struct ArcStiffness<'a> {
     pub couplings: Vec<[f32; 6]>,
 }
 
-/// A symmetric positive semidefinite stiffness, assembled anew in each step.
+/// Symmetric positive semidefinite stiffness, assembled anew in each step.
 pub struct Operator<'a> {
-    /// Diagonal blocks: inertia, body contact, friction. N/m.
+    /// Inertia, body contact, friction. N/m.
     pub diagonal: Vec<Matrix3<f64>>,
-    /// Pairs coupled by the membrane.
     pub membrane_pairs: &'a PairList,
-    /// Off-diagonal block `K_ij`, `i < j`, of each membrane pair, N/m, with the bending stiffness of the pair.
+    /// Off-diagonal blocks `K_ij`, `i < j`, N/m, with the bending stiffness of the pairs.
     pub membrane: Vec<Block<f32x4>>,
     /// Pairs coupled by bending and not by the membrane.
     pub bending_pairs: &'a PairList,
-    /// Off-diagonal entry of each bending pair, the same for x, y and z, N/m.
+    /// Off-diagonal entries, the same for x, y and z, N/m.
     pub bending: &'a [f64],
-    /// Springs: two vertices and the stiffness, N/m.
+    /// Two vertices and the stiffness, N/m.
     pub springs: Vec<([usize; 2], f64)>,
-    /// Contacts of the cloth with itself, and of points in triangles with the body.
     pub contacts: Vec<Contact4>,
-    /// Stiffness of curved sides. `None` if all sides are straight.
+    /// `None` if all sides are straight.
     pub arcs: Option<ArcStiffness<'a>>,
 }
 
 impl Operator<'_> {
     /// Product of diagonal and contacts, without the rest, with a displacement `x`.
-    #[must_use]
     pub fn contact_forces(&self, x: &[V3]) -> Vec<V3> {
         let mut y: Vec<V3> = self.diagonal.iter().zip(x).map(|(block, x)| block * x).collect();
         for contact in &self.contacts {
@@ -87,8 +82,6 @@ impl Operator<'_> {
         y
     }
 
-    /// Diagonal 3x3 blocks of `K`, for a block-Jacobi preconditioner.
-    #[must_use]
     pub fn diagonal_blocks(&self) -> Vec<Matrix3<f64>> {
         let mut blocks = self.own_blocks();
         for &([i, j], stiffness) in &self.springs {
@@ -122,7 +115,6 @@ impl Operator<'_> {
     }
 
     /// Diagonal blocks without the parts due to couplings and springs.
-    #[must_use]
     pub fn own_blocks(&self) -> Vec<Matrix3<f64>> {
         let mut blocks = self.diagonal.clone();
         for contact in &self.contacts {
@@ -136,7 +128,6 @@ impl Operator<'_> {
 }
 
 impl ArcStiffness<'_> {
-    /// Adds the diagonal blocks of the stiffness against curvature.
     fn add_diagonal(&self, blocks: &mut [Matrix3<f64>]) {
         let mut own = vec![0.0; self.slopes.len()];
         for (sides, couplings) in self.triangles.iter().zip(&self.couplings) {

@@ -12,11 +12,8 @@ pub struct PairList {
 }
 
 impl PairList {
-    /// List without pairs.
     pub const EMPTY: &'static Self = &Self { pairs: Vec::new(), upper: Upper::EMPTY };
 
-    /// Collects the distinct unordered pairs.
-    #[must_use]
     pub fn new(pairs: impl IntoIterator<Item = [usize; 2]>) -> Self {
         let given: Vec<[usize; 2]> = pairs.into_iter().map(|[i, j]| [i.min(j), i.max(j)]).collect();
         let rows = given.iter().map(|[i, _]| i + 1).max().unwrap_or(0);
@@ -36,21 +33,18 @@ impl PairList {
         Self { pairs, upper }
     }
 
-    /// Index of the pair `{i, j}` in the list. `None` if the pair is not coupled.
-    #[must_use]
+    /// Index of the pair `{i, j}`. `None` if it is not coupled.
     pub fn slot(&self, i: usize, j: usize) -> Option<usize> {
         self.upper.slot(i.min(j), i.max(j))
     }
 
-    /// The pairs in compressed rows, by their smaller vertex.
-    #[must_use]
+    /// Rows are the smaller vertices.
     pub fn upper(&self) -> &Upper {
         &self.upper
     }
 
-    /// Divides the vertices into patches. The centres of patches are at least `apart` edges (pairs) from each other,
-    /// and each vertex belongs to the nearest centre. Returns the patch of each vertex, and the number of patches.
-    #[must_use]
+    /// Divides into patches. Centres are at least `apart` edges (pairs) from each other, and each vertex belongs to the
+    /// nearest one. Returns the patch of each vertex, and the number of patches.
     pub fn divide(&self, vertices: usize, apart: usize) -> (Vec<usize>, usize) {
         let mut neighbours = vec![Vec::new(); vertices];
         for &[i, j] in &self.pairs {
@@ -80,8 +74,6 @@ impl PairList {
         (patch_of, count)
     }
 
-    /// The pairs, sorted.
-    #[must_use]
     pub fn pairs(&self) -> &[[usize; 2]] {
         &self.pairs
     }
@@ -90,19 +82,17 @@ impl PairList {
 /// Strict upper triangle of a sparsity pattern in compressed rows.
 #[derive(Clone, Debug, Default)]
 pub struct Upper {
-    /// Index of the first coupling of each vertex, then the number of couplings. Vertices beyond the greatest smaller
-    /// vertex of a pair have no entry.
+    /// Index of the first coupling of each vertex, then their number. Vertices beyond the greatest smaller vertex of a
+    /// pair have no entry.
     starts: Vec<u32>,
     /// Larger vertex of each coupling.
     others: Vec<u32>,
 }
 
 impl Upper {
-    /// The pattern without couplings.
     pub const EMPTY: Self = Self { starts: Vec::new(), others: Vec::new() };
 
-    /// Pattern of distinct pairs, the smaller vertex first, sorted.
-    #[must_use]
+    /// Pairs are distinct and sorted, the smaller vertex first.
     pub fn new(pairs: &[[usize; 2]]) -> Self {
         let count = pairs.last().map_or(0, |pair| pair[0] + 1);
         let (starts, others) = sorted_by_row(count, pairs, |pair| pair[0], |pair| pair[1] as u32);
@@ -110,14 +100,12 @@ impl Upper {
     }
 
     /// Index of the coupling of `v` with the larger vertex `other`. `None` if the two are not coupled.
-    #[must_use]
     pub fn slot(&self, v: usize, other: usize) -> Option<usize> {
         let row = self.row(v);
         let at = self.others[row.clone()].binary_search(&(other as u32)).ok()?;
         Some(row.start + at)
     }
 
-    /// Range of the couplings of `v`.
     #[inline(always)]
     fn row(&self, v: usize) -> Range<usize> {
         match self.starts.get(v..v + 2) {
@@ -134,8 +122,7 @@ impl Upper {
     }
 }
 
-/// Cursor over the rows of a pattern, in the order of vertices, with a value for each coupling. No row has to be
-/// searched for.
+/// Cursor over the rows in the order of vertices, so that no row has to be searched for.
 pub struct RowCursor<'a, T> {
     starts: &'a [u32],
     others: &'a [u32],
@@ -143,13 +130,11 @@ pub struct RowCursor<'a, T> {
 }
 
 impl<'a, T> RowCursor<'a, T> {
-    /// Cursor before the first vertex.
     #[inline(always)]
     pub fn new(upper: &'a Upper, values: &'a [T]) -> Self {
         Self { starts: &upper.starts, others: &upper.others, values }
     }
 
-    /// Couplings of the next vertex, each with its value.
     #[inline(always)]
     pub fn next_row(&mut self) -> impl Iterator<Item = (usize, &'a T)> {
         let mut count = 0;

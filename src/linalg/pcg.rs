@@ -5,31 +5,25 @@ use super::quad::Quad;
 use super::simd::{self, Kernel, Simd};
 use geom::V3;
 
-/// Stopping criteria.
 #[derive(Clone, Copy, Debug)]
 pub struct PcgParams {
     /// Greatest ratio of residual to right-hand side, both in the norm of the preconditioner, at which a solve stops.
     pub tolerance: f64,
-    /// Greatest number of iterations.
     pub max_iterations: usize,
 }
 
-/// Result of a solve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Outcome {
-    /// True if the tolerance was met.
     pub is_solved: bool,
-    /// Number of iterations.
     pub iterations: usize,
 }
 
 /// Preconditioner `P`, applied in two steps, between which only the product `r . P r` is needed.
 pub trait Preconditioner<Q: Quad> {
-    /// Makes the first step of `P r`, into `z`. Returns `r . P r`.
+    /// Makes the first step of `P r`. Returns `r . P r`.
     fn apply<S: Simd>(&mut self, simd: S, r: &[Q], z: &mut [Q]) -> f64;
 
-    /// Makes the second step: updates the direction of states `[p, K p]` to `p = P r + beta p`, with `z` of the first
-    /// step.
+    /// Makes the second step: updates the direction in `[p, K p]` to `p = P r + beta p`, with `z` of the first step.
     #[inline(always)]
     fn next_direction<S: Simd>(&self, simd: S, z: &[Q], beta: Q, states: &mut [[Q; 2]]) {
         for ([p, _], z) in states.iter_mut().zip(z) {
@@ -112,7 +106,7 @@ impl<Q: Quad, P: Preconditioner<Q>> Kernel for Improvement<'_, Q, P> {
     }
 }
 
-/// Sum of the products of pairs, in four partial sums side by side, so that no addition waits for the preceding one.
+/// Sums in four partial sums, so that no addition waits for the preceding one.
 #[inline(always)]
 pub fn dot<Q: Quad, T, U>(a: &[T], b: &[U], product: impl Fn(&T, &U) -> Q) -> f64 {
     let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<4>(), b.as_chunks::<4>());

@@ -15,46 +15,30 @@ use geom::V3;
 pub trait Quad:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + AddAssign + SubAssign + 'static
 {
-    /// Type of one number.
     type Scalar: Copy;
-    /// Four zeros.
     const ZERO: Self;
     /// Value of `r . P r`, the work of the residual forces, below which a system counts as solved.
     const NEGLIGIBLE: f64;
-    /// Loads four numbers, rounded.
     fn of(numbers: [f64; 4]) -> Self;
-    /// Rounds one number.
     fn scalar(number: f64) -> Self::Scalar;
-    /// Broadcasts one number.
     fn splat(number: Self::Scalar) -> Self;
-    /// The four numbers in order.
     fn numbers(self) -> [Self::Scalar; 4];
-    /// The sum of the four numbers.
     fn total(self) -> f64;
     /// Totals of three quads, and a zero.
     fn totals(quads: [Self; 3]) -> Self;
-    /// The first three numbers.
     fn vector(self) -> V3;
 
-    /// Broadcasts one number, rounded.
-    #[must_use]
     fn spread(number: f64) -> Self {
         Self::splat(Self::scalar(number))
     }
 
-    /// Broadcasts one number of single precision.
     fn spread_single(number: f32) -> Self;
 
-    /// `self * factor + sum`.
     fn mul_add_on<S: Simd>(self, factor: Self, sum: Self, simd: S) -> Self;
-    /// `from - self * factor`.
     fn neg_mul_add_on<S: Simd>(self, factor: Self, from: Self, simd: S) -> Self;
 
-    /// Converts blocks to this precision.
     fn blocks(single: &[Block<f32x4>]) -> Cow<'_, [Block<Self>]>;
 
-    /// Loads a vector, rounded.
-    #[must_use]
     fn from_vector(v: &V3) -> Self {
         Self::of([v.x, v.y, v.z, 0.0])
     }
@@ -141,43 +125,35 @@ quad!(f64x4, f64, in_double, mul_add_f64s, neg_mul_add_f64s, |blocks: &[Block<f3
     .map(|block| block.map(|row| f64x4::from(row.to_array().map(f64::from))))
     .collect());
 
-/// A 3x3 block by rows.
+/// By rows.
 pub type Block<Q> = [Q; 3];
 
 /// The block `n I`.
 #[inline(always)]
-#[must_use]
 pub fn alike(n: f32) -> Block<f32x4> {
     [f32x4::from([n, 0.0, 0.0, 0.0]), f32x4::from([0.0, n, 0.0, 0.0]), f32x4::from([0.0, 0.0, n, 0.0])]
 }
 
-/// Converts a block into a matrix.
-#[must_use]
 pub fn matrix<Q: Quad>(block: &Block<Q>) -> Matrix3<f64> {
     Matrix3::from_rows(&block.map(|row| row.vector().transpose()))
 }
 
-/// Converts a matrix into a block, rounded.
-#[must_use]
 pub fn block<Q: Quad>(m: &Matrix3<f64>) -> Block<Q> {
     [0, 1, 2].map(|r| Q::of([m[(r, 0)], m[(r, 1)], m[(r, 2)], 0.0]))
 }
 
-/// Subtracts a matrix from a block.
 pub fn subtract(from: &mut Block<f32x4>, matrix: &Matrix3<f64>) {
     for (row, taken) in from.iter_mut().zip(block::<f32x4>(matrix)) {
         *row -= taken;
     }
 }
 
-/// Broadcasts each of the three components.
 #[inline(always)]
 pub fn spread_out<Q: Quad>(v: Q) -> [Q; 3] {
     let [x, y, z, _] = v.numbers();
     [x, y, z].map(Q::splat)
 }
 
-/// Product of the transposed block with a vector.
 #[inline(always)]
 pub fn transposed_times<Q: Quad>(block: &Block<Q>, v: Q) -> Q {
     let [x, y, z] = spread_out(v);

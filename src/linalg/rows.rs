@@ -1,7 +1,6 @@
 //! Counting sort of items by their rows, as for compressed sparse rows.
 
-/// Sorts items by their `row`, stably, by counting. Returns the start of each of `rows` rows and the number of items,
-/// and the `kept` value of each item.
+/// Sorts stably, by counting. Returns the start of each row and the number of items, and the `kept` values.
 pub fn sorted_by_row<I, T: Copy + Default>(
     rows: usize,
     items: &[I],

@@ -9,52 +9,35 @@ use wide::{f32x4, f64x4};
 
 /// Set of instructions that not every processor has.
 pub trait Simd: Copy {
-    /// Runs a kernel in a separate function that is compiled with these instructions.
     fn run<K: Kernel>(self, kernel: K) -> K::Output;
 
-    /// Two quads of numbers in single precision.
     type F32x8: Copy;
-    /// Four numbers in double precision.
     type F64x4: Copy;
-    /// `a b + c`.
     fn mul_add(self, a: f32x4, b: f32x4, c: f32x4) -> f32x4;
     /// `c - a b`.
     fn neg_mul_add(self, a: f32x4, b: f32x4, c: f32x4) -> f32x4;
-    /// Loads four numbers.
     fn f64s(self, numbers: [f64; 4]) -> Self::F64x4;
-    /// Stores four numbers.
     fn to_f64s(self, four: Self::F64x4) -> [f64; 4];
-    /// `a + b`.
     fn add_f64s(self, a: Self::F64x4, b: Self::F64x4) -> Self::F64x4;
-    /// `a - b`.
     fn sub_f64s(self, a: Self::F64x4, b: Self::F64x4) -> Self::F64x4;
-    /// `a b`.
     fn mul_f64s(self, a: Self::F64x4, b: Self::F64x4) -> Self::F64x4;
-    /// `a / b`.
     fn div_f64s(self, a: Self::F64x4, b: Self::F64x4) -> Self::F64x4;
-    /// `a b + c`.
     fn mul_add_f64s(self, a: Self::F64x4, b: Self::F64x4, c: Self::F64x4) -> Self::F64x4;
     /// `c - a b`.
     fn neg_mul_add_f64s(self, a: Self::F64x4, b: Self::F64x4, c: Self::F64x4) -> Self::F64x4;
-    /// Rounds the numbers to single precision.
     fn to_f32s(self, four: Self::F64x4) -> [f32; 4];
-    /// The square roots.
     fn sqrt_f64s(self, a: Self::F64x4) -> Self::F64x4;
-    /// Lesser of each two numbers. The second, where one of them is NaN.
+    /// Second, where one is NaN.
     fn min_f64s(self, a: Self::F64x4, b: Self::F64x4) -> Self::F64x4;
-    /// Greater of each two numbers. The second, where one of them is NaN.
+    /// Second, where one is NaN.
     fn max_f64s(self, a: Self::F64x4, b: Self::F64x4) -> Self::F64x4;
-    /// Joins two quads in one register, the first in its lower half.
+    /// Puts the first in the lower half.
     fn join(self, halves: [f32x4; 2]) -> Self::F32x8;
-    /// Splits a register into the two quads that [`Self::join`] joined.
     fn split(self, twin: Self::F32x8) -> [f32x4; 2];
-    /// `a b + c`.
     fn mul_add_f32x8(self, a: Self::F32x8, b: Self::F32x8, c: Self::F32x8) -> Self::F32x8;
 }
 
-/// Array of the values of an expression for each index, written out in full.
-///
-/// `map` over an array is not inlined into a kernel, so that each instruction would be a function call.
+/// Array of an expression's values for each index. `map` over an array is not inlined into a kernel.
 #[macro_export]
 macro_rules! each {
     ($k:ident of 2 => $made:expr) => { $crate::each!([0, 1] $k $made) };
@@ -66,15 +49,13 @@ macro_rules! each {
 }
 pub use each;
 
-/// A loop that is compiled for every instruction set, inlined with all functions that it calls.
+/// Loop that is compiled for every instruction set, inlined with all functions that it calls.
 pub trait Kernel {
-    /// Return value of the loop.
     type Output;
-    /// Runs the loop with the instructions of `simd`.
     fn run<S: Simd>(self, simd: S) -> Self::Output;
 }
 
-/// Runs a kernel with the widest instructions that the processor has.
+/// Runs with the widest instructions that the processor has.
 pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
     #[cfg(target_arch = "x86_64")]
     if let Some(simd) = pulp::x86::V3::try_new() {
@@ -83,7 +64,7 @@ pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
     Plain.run(kernel)
 }
 
-/// The instructions that every processor has.
+/// Instructions that every processor has.
 #[derive(Clone, Copy)]
 pub struct Plain;
 
@@ -193,7 +174,6 @@ mod x86 {
 
     use super::{Kernel, Simd};
 
-    /// A kernel with the instruction set to run it with.
     struct On<K> {
         simd: V3,
         kernel: K,

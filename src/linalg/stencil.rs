@@ -5,28 +5,26 @@ use super::rows::sorted_by_row;
 use super::simd::Simd;
 use geom::V3;
 
-/// Four terms of a sum. Sums are padded with terms of weight zero, so that all have fours of terms.
+/// Four terms of a sum, padded with weights of zero.
 #[derive(Clone, Copy, Debug)]
 struct Terms<I, W> {
     at: [I; 4],
     weights: [W; 4],
 }
 
-/// Sparse matrix of scalars that multiplies vectors of space, row by row, and its transpose.
+/// Sparse matrix of scalars that multiplies vectors of space, and its transpose.
 #[derive(Clone, Debug, Default)]
 pub struct Stencils {
     /// First four terms of each row, then the number of fours.
     starts: Vec<u32>,
     terms: Vec<Terms<u32, f64>>,
     single: Vec<Terms<u32, f32>>,
-    /// First four terms of each column, then the number of fours.
     column_starts: Vec<u32>,
     columns: Vec<Terms<u32, f32>>,
 }
 
 impl Stencils {
-    /// Matrix with `columns` columns, of rows of (column, weight).
-    #[must_use]
+    /// Rows of (column, weight).
     pub fn new(rows: &[Vec<(usize, f64)>], columns: usize) -> Self {
         let rounded = |four: &Terms<u32, f64>| Terms { at: four.at, weights: four.weights.map(|w| w as f32) };
         let single = |terms: &[Terms<u32, f64>]| terms.iter().map(rounded).collect();
@@ -38,7 +36,6 @@ impl Stencils {
         Self { single: single(&terms), columns: single(&turned), starts, terms, column_starts }
     }
 
-    /// Columns and weights of a row.
     pub fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
         let terms = &self.terms[self.starts[row] as usize..self.starts[row + 1] as usize];
         terms
@@ -47,9 +44,7 @@ impl Stencils {
             .filter(|(_, w)| *w != 0.0)
     }
 
-    /// Product of a row with the vectors `x`.
     #[inline(always)]
-    #[must_use]
     pub fn sum(&self, row: usize, x: &[V3]) -> V3 {
         let mut sums = [V3::zeros(); 2];
         for Terms { at, weights: w } in &self.terms[self.starts[row] as usize..self.starts[row + 1] as usize] {
@@ -59,7 +54,7 @@ impl Stencils {
         sums[0] + sums[1]
     }
 
-    /// Product of a row with the first vectors of `states`.
+    /// Multiplies the first vectors of `states`.
     #[inline(always)]
     pub fn sum_of<Q: Quad, S: Simd>(&self, simd: S, row: usize, states: &[[Q; 2]]) -> Q {
         let mut sums = [Q::ZERO; 4];
@@ -71,7 +66,6 @@ impl Stencils {
         (sums[0] + sums[1]) + (sums[2] + sums[3])
     }
 
-    /// Product of a column with the values `of_rows`.
     #[inline(always)]
     pub fn column_sum<Q: Quad, S: Simd>(&self, simd: S, column: usize, of_rows: &[Q]) -> Q {
         let mut sums = [Q::ZERO; 4];
@@ -86,7 +80,7 @@ impl Stencils {
     }
 }
 
-/// Pads lists of (index, weight) to fours. Returns the first four of each list and the number of fours, and the terms.
+/// Pads lists of (index, weight) to fours. Returns the first four of each list, then their number, and the terms.
 fn filled_up<'a>(lists: impl Iterator<Item = &'a [(usize, f64)]>) -> (Vec<u32>, Vec<Terms<u32, f64>>) {
     let (mut starts, mut terms) = (vec![0], Vec::new());
     for list in lists {

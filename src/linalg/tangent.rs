@@ -21,20 +21,17 @@ pub struct Tangent {
     factor: Factor,
 }
 
-/// Factor of a stiffness.
 enum Factor {
-    /// Cholesky factor of a positive definite stiffness: the equilibrium is stable.
+    /// Cholesky factor of a stable equilibrium.
     Definite(Box<Llt<usize, f64>>),
-    /// LU factor of a regular, indefinite stiffness.
     Indefinite(Box<Lu<usize, f64>>),
-    /// No factor: the stiffness is singular.
+    /// The stiffness is singular.
     None,
 }
 
 impl Tangent {
-    /// Symmetric part of the stiffness `-df/dx` of `forces` at `x`, by central differences with the step `step`, m.
-    /// Each force must depend only on its vertex and on the vertices paired with it.
-    #[must_use]
+    /// Symmetric part of `-df/dx` at `x`, by central differences with the step `step`, m. Each force must depend only
+    /// on its vertex and those paired with it.
     pub fn of(
         pairs: &PairList,
         x: &[Vector3<f64>],
@@ -75,7 +72,6 @@ impl Tangent {
         tangent
     }
 
-    /// Replaces both triangles by their mean.
     fn make_symmetric(&mut self, near: &[Vec<usize>]) {
         let starts = self.pattern.col_ptr();
         for (v, of_v) in near.iter().enumerate() {
@@ -108,13 +104,12 @@ impl Tangent {
         };
     }
 
-    /// True if every displacement costs energy, so that the equilibrium is stable.
-    #[must_use]
+    /// True if the equilibrium is stable.
     pub fn is_definite(&self) -> bool {
         matches!(self.factor, Factor::Definite(_))
     }
 
-    /// Adds a spring of this stiffness between every vertex and its present position, N/m.
+    /// Adds a spring (N/m) between every vertex and its present position.
     pub fn tie(&mut self, stiffness: f64) {
         for column in 0..self.pattern.ncols() {
             let range = self.pattern.col_range(column);
@@ -125,8 +120,7 @@ impl Tangent {
         self.factorise();
     }
 
-    /// Displacements under these forces. `None` if the stiffness is singular.
-    #[must_use]
+    /// `None` if the stiffness is singular.
     pub fn solve(&self, forces: &[Vector3<f64>]) -> Option<Vec<Vector3<f64>>> {
         let mut flat: Vec<f64> = forces.iter().flat_map(|f| [f.x, f.y, f.z]).collect();
         let rows = flat.len();
@@ -151,7 +145,7 @@ fn neighbours(pairs: &PairList, count: usize) -> Vec<Vec<usize>> {
     near
 }
 
-/// Groups of vertices (a colouring) such that no two of a group act on the same force.
+/// Colouring: no two vertices of a group act on the same force.
 fn groups(near: &[Vec<usize>]) -> Vec<Vec<usize>> {
     let mut group_of = vec![usize::MAX; near.len()];
     let mut groups: Vec<Vec<usize>> = Vec::new();
@@ -176,8 +170,7 @@ fn groups(near: &[Vec<usize>]) -> Vec<Vec<usize>> {
 mod tests {
     use super::*;
 
-    /// Forces of a chain in which neighbours pull each other by the cube of their distance, and springs pull to the
-    /// floor.
+    /// Neighbours pull each other by the cube of their distance, and springs pull to the floor.
     fn chain(x: &[Vector3<f64>], floor: f64) -> Vec<Vector3<f64>> {
         let mut forces: Vec<Vector3<f64>> = x.iter().map(|p| p * -floor).collect();
         for i in 1..x.len() {

@@ -136,9 +136,6 @@ fn nearest(ring: &[V2], point: V2) -> V2 {
 impl Piece {
     /// Returns the piece with a sew line at the distance `allowance_m` inside its cut line, and with turn points and
     /// notches on the sew line. A piece that has a sew line stays as it is.
-    ///
-    /// # Errors
-    /// A message if the piece is too narrow for the allowance, or the allowance is out of range.
     pub fn with_allowance(mut self, allowance_m: f64) -> Result<Self, String> {
         if self.sew_line.is_some() || allowance_m == 0.0 {
             return Ok(self);

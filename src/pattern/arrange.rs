@@ -27,7 +27,6 @@ pub struct Placed {
 
 impl Placed {
     /// Maps a point of the piece's plane into the layout, m.
-    #[must_use]
     pub fn at(&self, point: V2) -> V2 {
         turned(point, self.turn) + self.shift
     }
@@ -118,7 +117,6 @@ fn straightening(grain: V2) -> f64 {
 }
 
 /// Places every piece of a style, in the order of its pieces.
-#[must_use]
 pub fn arrange(style: &Style) -> Vec<Placed> {
     let pieces: Vec<Piece> = style.pieces.iter().map(Piece::of).collect();
     let mut placed: Vec<Placed> = pieces.iter().map(|piece| Placed { turn: piece.turn, shift: V2::zeros() }).collect();
@@ -164,7 +162,6 @@ pub fn arrange(style: &Style) -> Vec<Placed> {
 }
 
 /// Returns the style with every piece moved to its place in the layout.
-#[must_use]
 pub fn arranged(style: &Style) -> Style {
     let mut moved = style.clone();
     for (piece, placed) in moved.pieces.iter_mut().zip(arrange(style)) {
@@ -176,7 +173,6 @@ pub fn arranged(style: &Style) -> Style {
 
 /// Returns the style as [`arranged`] does, but with all fronts head up beside the rest, as a specification sheet shows
 /// them.
-#[must_use]
 pub fn hung(style: &Style) -> Style {
     let mut moved = arranged(style);
     let is_front = |piece: &StylePiece| {

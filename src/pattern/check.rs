@@ -52,7 +52,6 @@ pub enum FindingKind {
 
 impl FindingKind {
     /// Kind in words, for messages.
-    #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Self::FreeEdge => "free edge",
@@ -66,14 +65,12 @@ impl FindingKind {
     }
 
     /// True if an edit of the seam file can settle the finding.
-    #[must_use]
     pub fn is_of_seams(self) -> bool {
         !matches!(self, Self::Gathered | Self::FitLevel | Self::Leap)
     }
 }
 
 /// Findings on a style that `pieces` make with the entries of a seam file.
-#[must_use]
 pub fn findings(pieces: &[Piece], entries: &SeamFile, style: &Style) -> Vec<Finding> {
     let is_left_out = |piece: &Piece| Finding {
         kind: FindingKind::UnusedPiece,
@@ -110,7 +107,6 @@ fn edges_of(path: &[PathPart]) -> impl Iterator<Item = EdgeRef> {
 
 /// Findings on a meshed garment: measurements that close or not against their kind, and a missing girth at chest and
 /// hip.
-#[must_use]
 pub fn of_garment(style: &Style, garment: &Garment) -> Vec<Finding> {
     let welded = welded(garment);
     let mut findings = Vec::new();

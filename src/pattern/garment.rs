@@ -68,7 +68,6 @@ impl Role {
     ];
 
     /// Name of the role in seam files.
-    #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Front => "front",
@@ -91,7 +90,6 @@ impl Role {
     }
 
     /// Role with a given name in seam files.
-    #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|role| role.as_str() == name)
     }
@@ -142,13 +140,11 @@ pub struct MaterialPoint {
 
 impl MaterialPoint {
     /// Position of the point when the vertices are at `positions`.
-    #[must_use]
     pub fn at(&self, positions: &[V3]) -> V3 {
         (0..3).map(|k| positions[self.vertices[k]] * self.weights[k]).sum()
     }
 
     /// Position of the point in the plane of its piece.
-    #[must_use]
     pub fn at_rest(&self, rest: &[V2]) -> V2 {
         (0..3).map(|k| rest[self.vertices[k]] * self.weights[k]).sum()
     }
@@ -169,7 +165,6 @@ impl MaterialLine {
     ///
     /// The sum of `arc_m` times the stretch of each segment, which is its arc on the drape divided by its arc in the
     /// flat mesh (`arcs`). An unstretched garment therefore has its pattern length exactly, however coarse its mesh.
-    #[must_use]
     pub fn length_m(&self, rest: &[V2], positions: &[V3]) -> f64 {
         let ways = |points: &[V3]| -> Vec<V3> { points.windows(2).map(|ends| ends[1] - ends[0]).collect() };
         let flat = ways(&self.points.iter().map(|p| p.at_rest(rest).push(0.0)).collect::<Vec<_>>());
@@ -209,7 +204,6 @@ fn arcs(ways: &[V3], steps: &[f64]) -> Vec<f64> {
 ///
 /// For an arc of length s and curvature kappa, arc^2 - chord^2 = s^4 kappa^2 / 12 to leading order. The curvature at a
 /// point is the finite difference of `way / step` on both sides. That of a segment is the mean of its ends.
-#[must_use]
 pub fn excesses(ways: &[V3], steps: &[f64]) -> Vec<f64> {
     let bend = |i: usize| {
         let [before, after] = [i - 1, i].map(|k| ways[k] / steps[k].max(f64::MIN_POSITIVE));
@@ -256,7 +250,6 @@ pub struct Measurement {
 
 impl Measurement {
     /// Length L3D, m, when the vertices are at `positions`. `rest` are the vertices in the planes of the pieces.
-    #[must_use]
     pub fn length_m(&self, rest: &[V2], positions: &[V3]) -> f64 {
         self.runs.iter().map(|run| run.length_m(rest, positions)).sum()
     }
@@ -344,7 +337,6 @@ impl std::fmt::Display for Spot {
 
 impl Garment {
     /// Piece that holds most of some vertices, and the mean of their positions on it. `None` without vertices.
-    #[must_use]
     pub fn spot(&self, vertices: &[usize]) -> Option<Spot> {
         let points_in = |piece: &PieceMesh| -> Vec<V2> {
             vertices.iter().filter(|v| piece.vertices.contains(v)).map(|&v| self.rest[v]).collect()
@@ -355,7 +347,6 @@ impl Garment {
     }
 
     /// Puts garments side by side as one, not sewn to each other. Pieces, vertices and triangles keep their order.
-    #[must_use]
     pub fn beside(garments: &[&Self]) -> Self {
         let names: Vec<&str> = garments.iter().map(|garment| garment.name.as_str()).collect();
         let edge_length_m = garments.iter().map(|garment| garment.edge_length_m).fold(f64::MAX, f64::min);
@@ -391,7 +382,6 @@ impl Garment {
 
     /// Returns the garment with its vertices moved in the planes of their pieces. Arcs of measurements scale with their
     /// chords.
-    #[must_use]
     pub fn with_rest(&self, rest: Vec<V2>) -> Self {
         let redrawn = |line: &MaterialLine| line.redrawn(&self.rest, &rest);
         let length = |runs: &[MaterialLine]| runs.iter().flat_map(|run| &run.arc_m).sum::<f64>();
@@ -410,7 +400,6 @@ impl Garment {
 
     /// Returns the garment without some of its pieces and without measurements, and the original index of each of its
     /// vertices.
-    #[must_use]
     pub fn without(&self, gone: &[usize]) -> (Self, Vec<usize>) {
         let mut kept: Vec<usize> = Vec::new();
         let mut number = vec![None; self.rest.len()];

@@ -107,7 +107,6 @@ impl From<&PatternFile> for FileReport {
 
 impl FileReport {
     /// Report of a file that cannot be read.
-    #[must_use]
     pub fn unreadable(file: &str, error: String) -> Self {
         Self {
             file: file.to_owned(),
@@ -124,7 +123,6 @@ impl FileReport {
     }
 
     /// Report for other programs: names of blocks byte for byte as in the file, whatever the code page of its reader.
-    #[must_use]
     pub fn as_written(mut self) -> Self {
         let blocks = self.pieces.iter_mut().map(|piece| &mut piece.block);
         for block in blocks.chain(self.refused.iter_mut().map(|refused| &mut refused.block)) {

@@ -5,23 +5,21 @@ use std::sync::Arc;
 use geom::V2;
 use geom::polyline::{perimeter, signed_area};
 
-/// Notch: a mark cut into the edge, matched with that of the seam partner.
+/// Mark cut into the edge, matched with that of the seam partner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Notch {
-    /// Position on the outline.
     pub at: V2,
-    /// Depth of the cut, m. `None` if the file does not give it.
+    /// `None` if the file does not give it.
     pub depth_m: Option<f64>,
-    /// Direction of the cut, degrees counter-clockwise from +u. `None` if the file does not give it.
+    /// Counter-clockwise from +u. `None` if the file does not give it.
     pub angle_deg: Option<f64>,
 }
 
-/// Grade point: a point that a rule of the grade rule table moves.
+/// Point that a rule of the grade rule table moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GradePoint {
     /// Position, m, on the outline or near it.
     pub at: V2,
-    /// Number of its grade rule.
     pub rule: u32,
     /// True for a notch and a point of an internal line, cut-out or drill hole, however near the outline it lies.
     pub is_inner: bool,
@@ -30,47 +28,41 @@ pub struct GradePoint {
 /// One piece of one size.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Piece {
-    /// Name of the block in the file.
     pub block: String,
     /// `Piece Name` of the file, or else the name of the block.
     pub name: String,
-    /// Rest of the file that concerns this piece.
     pub beside: Beside,
     /// Size, if the piece or the file names one.
     pub size: Option<String>,
     /// Quantity to cut, as written: `2`, or `1,1` for left and right.
     pub quantity: Option<String>,
-    /// Other texts of the block as `(key, value)`. The key is empty for a text without one.
+    /// Other texts as `(key, value)`. The key is empty for a text without one.
     pub texts: Vec<(String, String)>,
     /// Closed outline, counter-clockwise, first vertex not repeated. The cut line, if there is a sew line too.
     pub outline: Vec<V2>,
-    /// Length of the outline as drawn, m, before loops and spikes were cut away, and before it followed its quality
-    /// curve. `None` if the outline is as drawn.
+    /// Length of the outline as drawn, before loops and spikes were cut away, and before it followed its quality curve.
+    /// `None` if the outline is as drawn.
     pub drawn_perimeter_m: Option<f64>,
-    /// True if the file draws the outline clockwise.
     pub is_clockwise_in_file: bool,
-    /// Turn points (corners), in the order of the file.
+    /// Corners, in the order of the file.
     pub turn_points: Vec<V2>,
-    /// Curve points, in the order of the file.
+    /// In the order of the file.
     pub curve_points: Vec<V2>,
-    /// Marks cut into the outline, in the order of the file.
+    /// In the order of the file.
     pub notches: Vec<Notch>,
     /// Grain line from its first to its second end.
     pub grain: Option<[V2; 2]>,
-    /// Mirror line (fold line) of a half piece.
+    /// Fold line of a half piece.
     pub mirror_line: Option<[V2; 2]>,
-    /// Grade reference line, from its first to its second end: the x axis of the grade rules. `None` for a horizontal x
-    /// axis.
+    /// From its first to its second end: the x axis of the grade rules. `None` for a horizontal x axis.
     pub grade_reference: Option<[V2; 2]>,
-    /// Points that the grade rule table moves.
     pub grade_points: Vec<GradePoint>,
-    /// Internal lines (layer 8), open or closed.
+    /// Lines of layer 8, open or closed.
     pub internal_lines: Vec<Vec<V2>>,
-    /// Closed lines along which holes are cut inside the outline.
+    /// Closed lines of holes inside the outline.
     pub cut_outs: Vec<Vec<V2>>,
-    /// Centres of the drill holes.
     pub drill_holes: Vec<V2>,
-    /// Closed sew line inside the cut line. `None` if the file draws none.
+    /// Closed, inside the cut line. `None` if the file draws none.
     pub sew_line: Option<Vec<V2>>,
 }
 
@@ -88,20 +80,15 @@ pub struct Beside {
 }
 
 impl Piece {
-    /// Length of the outline, m.
-    #[must_use]
     pub fn perimeter_m(&self) -> f64 {
         perimeter(&self.outline)
     }
 
-    /// Area within the outline, m2.
-    #[must_use]
     pub fn area_m2(&self) -> f64 {
         signed_area(&self.outline).abs()
     }
 
-    /// Line that is sewn: the sew line, or the outline of a piece without one.
-    #[must_use]
+    /// Sew line, or the outline of a piece without one.
     pub fn seam_outline(&self) -> &[V2] {
         self.sew_line.as_deref().unwrap_or(&self.outline)
     }

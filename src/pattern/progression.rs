@@ -11,38 +11,30 @@ use geom::units::mm;
 
 /// Greatest regular ratio of a step to the greater of its neighbouring steps of the same sign.
 const GREATEST_RATIO: f64 = 3.0;
-/// Least step to compare with, m, for lengths that hardly grow: the tolerance on both sides of a seam.
+/// Least step to compare with, for lengths that hardly grow: the tolerance on both sides of a seam.
 const LEAST_STEP_M: f64 = 1e-3;
-/// Number of sizes from which steps alone tell an outlier. With three sizes there are two steps, and either may be the
-/// outlier.
+/// Sizes from which steps alone tell an outlier. With three there are two steps, and either may be it.
 const MANY_SIZES: usize = 4;
-/// Least share of the step of an edge that a neighbouring edge must lose for the corner between them to count as
-/// slipped.
+/// Least share of an edge's step that a neighbour must lose for the corner between them to count as slipped.
 const PASSED_ON: f64 = 0.5;
 
-/// Outlier among the grade steps of a length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Leap {
     /// Name of the point of measure, or `piece.edge`.
     pub length: String,
-    /// Indices of both sizes.
+    /// Indices of neighbouring sizes.
     pub sizes: [usize; 2],
-    /// Length in both sizes, m.
     pub lengths_m: [f64; 2],
     /// Ratio of the step to the greater of its neighbouring steps of the same sign.
     pub ratio: f64,
 }
 
 impl Leap {
-    /// Length in both sizes, for messages.
-    #[must_use]
     pub fn told(&self) -> String {
         let [before_mm, after_mm] = self.lengths_m.map(mm);
         format!("{} {before_mm:.1} to {after_mm:.1} mm ({:.1} times the steps beside it)", self.length, self.ratio)
     }
 
-    /// Finding for this leap. `sizes` are the names of all sizes.
-    #[must_use]
     pub fn finding(&self, sizes: &[String]) -> Finding {
         let ([before, after], [before_mm, after_mm]) = (self.sizes.map(|size| &sizes[size]), self.lengths_m.map(mm));
         let found = format!(
@@ -56,7 +48,6 @@ impl Leap {
 /// Outliers among the grade steps of the points of measure and edges of a style, the greatest ratio first. `sizes` go
 /// from the smallest. With three sizes, only edges count at which a corner slips: one edge gains what its neighbour
 /// loses.
-#[must_use]
 pub fn leaps(sizes: &[&Style]) -> Vec<Leap> {
     let mut lengths: BTreeMap<String, Vec<Option<f64>>> = BTreeMap::new();
     for (size, style) in sizes.iter().enumerate() {
@@ -93,7 +84,6 @@ fn slips(sizes: &[&Style], leap: &Leap) -> bool {
         && beside.into_iter().any(|other| -step_m(other) * step_m(k).signum() > PASSED_ON * step_m(k).abs())
 }
 
-/// Outliers among the grade steps of one length, m.
 fn leaps_of(name: &str, lengths_m: &[Option<f64>]) -> Vec<Leap> {
     let known: Vec<(usize, f64)> =
         lengths_m.iter().enumerate().filter_map(|(size, length_m)| Some((size, (*length_m)?))).collect();
@@ -159,7 +149,7 @@ mod tests {
         assert!(slipped.iter().all(|leap| leap.sizes == [1, 2]), "{slipped:?}");
     }
 
-    /// Moves the corner between the first two edges of a piece by 40 mm along the second.
+    /// Moves the corner by 40 mm along the second edge.
     fn slip(piece: &mut crate::style::StylePiece) {
         let second = piece.edges[1].line.clone();
         let at = second.at(0.04);

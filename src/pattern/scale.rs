@@ -3,17 +3,17 @@
 use super::dxf::Unit;
 use geom::V2;
 
-/// Accepted length of the longest piece of a garment, m. A collar alone has 0.3, the train of a wedding dress 4.
+/// Accepted length of the longest piece of a garment. A collar alone has 0.3, the train of a wedding dress 4.
 const WORN_M: std::ops::RangeInclusive<f64> = 0.08..=6.0;
-/// Length of the longest piece of most garments, m.
+/// Length of the longest piece of most garments.
 const USUAL_M: std::ops::RangeInclusive<f64> = 0.2..=3.0;
 
 /// Length over width from which a piece is a strip. A ruffle of 10 m or a binding says nothing about the unit, since it
 /// is gathered or goes round; legs of trousers have less.
 const STRIP: f64 = 4.0;
 
-/// Length, m, of the longest piece that says something about the unit: the greatest side of its bounding box. Strips
-/// count only where there is nothing else. 0 without an outline.
+/// Length of the longest piece that says something about the unit: the greatest side of its bounding box. Strips count
+/// only where there is nothing else. 0 without an outline.
 pub fn longest_m<'a>(outlines: impl Iterator<Item = &'a [V2]>) -> f64 {
     let (mut longest, mut longest_strip) = (0.0_f64, 0.0_f64);
     for outline in outlines.filter(|outline| !outline.is_empty()) {
@@ -26,9 +26,7 @@ pub fn longest_m<'a>(outlines: impl Iterator<Item = &'a [V2]>) -> f64 {
     if longest > 0.0 { longest } else { longest_strip }
 }
 
-/// Objection to a unit in which the longest piece is `longest_m` long, with the units that would fit. `None` if a
-/// person could wear it.
-#[must_use]
+/// `None` if a person could wear a garment whose longest piece has this length. Names the units that would fit.
 pub fn doubt(longest_m: f64, unit: Unit) -> Option<String> {
     if WORN_M.contains(&longest_m) {
         return None;
@@ -42,12 +40,11 @@ pub fn doubt(longest_m: f64, unit: Unit) -> Option<String> {
     Some(format!("the longest piece is {} m long in {}{instead}", rounded(longest_m), unit.as_str()))
 }
 
-/// Formats a length, m, for messages.
 fn rounded(length_m: f64) -> String {
     if length_m >= 10.0 { format!("{length_m:.0}") } else { format!("{length_m:.2}") }
 }
 
-/// Text for messages: the accepted length of the longest piece, and the option that sets the unit.
+/// Accepted length of the longest piece, and the option that sets the unit, for messages.
 pub const ACCEPTED: &str = "0.08 to 6 m for a person; say the unit with --unit mm, cm, in or m";
 
 #[cfg(test)]

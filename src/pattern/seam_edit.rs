@@ -16,53 +16,41 @@ use geom::units::mm;
 /// An edit of a seam file. A side is written `PIECE.EDGE` or `PIECE.EDGE+PIECE.EDGE`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Edit {
-    /// Adds a seam between two sides.
     Add {
-        /// Edges of one side.
         a: String,
-        /// Edges of the other side.
         b: String,
-        /// Name of the seam. `None` for a name made of the first edge.
+        /// `None` for a name made of the first edge.
         name: Option<String>,
         /// True if the sides differ in length on purpose. The difference is then written as ease.
         is_eased: bool,
     },
     /// Removes the seam between two edges.
     Remove {
-        /// An edge of one side.
         a: String,
-        /// An edge of the other side.
         b: String,
     },
     /// Reverses one side of the seam between two edges.
     Flip {
-        /// An edge of one side.
         a: String,
-        /// An edge of the other side.
         b: String,
     },
-    /// Lists an edge as `open`: it is in no seam on purpose.
+    /// Lists an edge as `open`: in no seam on purpose.
     Open {
-        /// Edge that stays free.
         edge: String,
     },
-    /// Removes a piece and its seams.
     LeaveOut {
-        /// Identifier of the piece that is left out.
         piece: String,
     },
     /// Adds a drawn piece that the file leaves out. [`Edit::Role`] sets its role.
     TakeIn {
-        /// The piece, by its name or its block.
+        /// Name or block of the piece.
         drawn: String,
         /// True if the piece is worn twice, right and left, the second time mirrored.
         is_pair: bool,
     },
-    /// Sets the role of a piece.
     Role {
-        /// Identifier of the piece.
         piece: String,
-        /// Name of the role, such as `front` or `sleeve_right`.
+        /// Name such as `front` or `sleeve_right`.
         role: String,
     },
 }
@@ -70,18 +58,13 @@ pub enum Edit {
 /// Sizes that share one seam file: the edited one, and the others.
 #[derive(Clone, Copy, Debug)]
 pub struct Sizes<'a> {
-    /// Name of the size that is edited.
     pub name: &'a str,
-    /// Pieces of that size.
     pub pieces: &'a [Piece],
-    /// Names and pieces of the other sizes.
     pub others: &'a [(String, Vec<Piece>)],
 }
 
-/// Returns the text of a seam file after an edit. `file` is its name for messages.
-///
-/// # Errors
-/// [`StyleError`] if the edit names something that does not exist, or if its result does not fit the pieces.
+/// Text of the seam file after the edit. `file` is its name for messages. Fails where the edit names something that
+/// does not exist, or its result does not fit the pieces.
 pub fn edited(text: &str, file: &str, sizes: &Sizes<'_>, edit: &Edit) -> Result<String, StyleError> {
     let pieces = sizes.pieces;
     let entries = SeamFile::parse(text.as_bytes(), file)?;
@@ -118,7 +101,6 @@ pub fn edited(text: &str, file: &str, sizes: &Sizes<'_>, edit: &Edit) -> Result<
     Ok(text)
 }
 
-/// Entries for the edges between neighbouring corners of an outline, with `corners` of them.
 fn edges_between(corners: usize) -> InlineTable {
     let edge = |k: usize| {
         let (from, to) = (k as i64, ((k + 1) % corners) as i64);
@@ -140,7 +122,6 @@ impl Editor<'_> {
         StyleError::Contradiction { file: self.file.to_owned(), place, found, accepted }
     }
 
-    /// List of seams of the document, created if missing.
     fn seams(&mut self) -> Result<&mut ArrayOfTables, StyleError> {
         let refused = self.refused("seam", "a list in one line".to_owned(), "[[seam]] tables");
         let seams = self.document.entry("seam").or_insert(Item::ArrayOfTables(ArrayOfTables::new()));
@@ -176,7 +157,7 @@ impl Editor<'_> {
         Ok(())
     }
 
-    /// Lengths of two sides on the pieces of a size, mm. `None` if the present file does not fit these pieces.
+    /// Lengths, mm. `None` if the present file does not fit these pieces.
     fn sides_in(&self, pieces: &[Piece], sides: [&[String]; 2]) -> Option<[f64; 2]> {
         let mut entries = SeamFile::parse(self.document.to_string().as_bytes(), self.file).ok()?;
         entries.length_tolerance_mm = f64::INFINITY;
@@ -191,8 +172,8 @@ impl Editor<'_> {
         Some([a?, b?])
     }
 
-    /// Value of `ease_mm` for a seam. `all` has the lengths of both sides in each size, mm, the edited size first.
-    /// `None` if both sides are equally long in all sizes.
+    /// Value of `ease_mm`. `all` has the lengths of both sides in each size, mm, the edited size first. `None` if both
+    /// sides are equally long in all sizes.
     fn ease(&self, name: &str, all: &[(String, [f64; 2])], is_eased: bool) -> Result<Option<Value>, StyleError> {
         let tolerance_mm = self.entries.length_tolerance_mm;
         let own = all.first().map_or(1.0, |(_, [a_mm, b_mm])| a_mm / b_mm);
@@ -277,7 +258,7 @@ impl Editor<'_> {
         Ok(())
     }
 
-    /// Unused identifier for a drawn piece, of letters, digits and `_`.
+    /// Unused identifier of letters, digits and `_`.
     fn free_id(&self, drawn: &str, hand: &str) -> String {
         let words = drawn.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
         let base = match words.map(str::to_ascii_lowercase).collect::<Vec<_>>().join("_") {
@@ -307,7 +288,7 @@ impl Editor<'_> {
         Err(self.unknown("piece", piece, &ids.join(", ")))
     }
 
-    /// Unused name for a seam, made of the name of its first edge.
+    /// Unused name for a seam, made of that of its first edge.
     fn free_name(&self, edge: &str) -> String {
         let base = edge.replace('.', "_");
         let is_free = |name: &String| !self.entries.seam.iter().any(|seam| seam.name == *name);
@@ -315,12 +296,12 @@ impl Editor<'_> {
         std::iter::once(base.clone()).chain(numbered).find(is_free).unwrap_or(base)
     }
 
-    /// Names and lengths, mm, of the edges of a side. An edge without a name gets one in the document.
+    /// Names and lengths, mm, of the edges of a side. Names those that have no name.
     fn side(&mut self, side: &str) -> Result<Vec<(String, f64)>, StyleError> {
         side.split('+').map(|edge| self.edge(edge.trim())).collect()
     }
 
-    /// Name and length, mm, of an edge. An edge without a name gets one in the document.
+    /// Name and length, mm. Names an edge that has no name.
     fn edge(&mut self, text: &str) -> Result<(String, f64), StyleError> {
         let (piece, edge) = text.split_once('.').unwrap_or((text, ""));
         let Some(drawn) = self.style.pieces.iter().find(|drawn| drawn.id == piece) else {
@@ -365,7 +346,7 @@ impl Editor<'_> {
         Ok((format!("{piece}.{name}"), length_mm))
     }
 
-    /// Length of the outline between two corners, counter-clockwise as drawn, mm.
+    /// Length of the outline, counter-clockwise as drawn, mm.
     fn length_between(&self, piece: &str, [from, to]: [usize; 2]) -> f64 {
         let Some(drawn) = self.style.pieces.iter().find(|drawn| drawn.id == piece) else { return 0.0 };
         // A mirrored piece runs clockwise as drawn.
@@ -381,7 +362,6 @@ impl Editor<'_> {
         (0..steps).map(|k| mm((outline[(first + k + 1) % n] - outline[(first + k) % n]).norm())).sum()
     }
 
-    /// Corners of the unnamed edge `index`, counter-clockwise as drawn.
     fn unnamed_corners(&self, piece: &str, index: usize) -> [usize; 2] {
         let edges = &self.style.pieces.iter().find(|drawn| drawn.id == piece).map_or(&[][..], |drawn| &drawn.edges);
         let n = edges.len();
@@ -393,7 +373,6 @@ impl Editor<'_> {
         if self.entries.piece[piece].mirror { [after[1], before[0]] } else { [before[1], after[0]] }
     }
 
-    /// Adds an edge between two corners to the document, and returns its name.
     fn named(&mut self, piece: &str, [from, to]: [usize; 2]) -> String {
         let name = format!("edge_{from}_{to}");
         let mut corners = Array::new();
@@ -403,7 +382,6 @@ impl Editor<'_> {
         name
     }
 
-    /// Index of the seam that has edge `a` on one side and edge `b` on the other.
     fn between(&self, a: &str, b: &str) -> Result<usize, StyleError> {
         let full = |text: &str| {
             let (piece, edge) = text.split_once('.').unwrap_or((text, ""));

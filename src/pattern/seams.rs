@@ -21,67 +21,55 @@ use serde::{Deserialize, Serialize};
 
 use super::garment::{Band, MeasurementKind, Role};
 
-/// Error of making a style from pieces and a seam file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StyleError {
-    /// The seam file is not valid TOML of the expected form.
+    /// Seam file that is no TOML, or TOML of another form.
     #[error("{file}: not a seam file: {reason}")]
     Syntax {
-        /// Name of the seam file.
         file: String,
         /// Message of the TOML reader, with the line.
         reason: String,
     },
-    /// A name refers to nothing.
     #[error("{file}: {place}: there is no {what} `{found}`; there is: {accepted}")]
     Unknown {
-        /// Name of the seam file.
         file: String,
         /// Entry of the seam file.
         place: String,
         /// Kind of thing that the name should refer to.
         what: &'static str,
-        /// Name in the entry.
         found: String,
-        /// Names that exist.
         accepted: String,
     },
-    /// An entry contradicts the pieces or another entry.
+    /// Entry that contradicts the pieces or another entry.
     #[error("{file}: {place}: {found}; accepted: {accepted}")]
     Contradiction {
-        /// Name of the seam file.
         file: String,
         /// Entry of the seam file.
         place: String,
-        /// Description of the contradiction.
         found: String,
-        /// Description of what is accepted.
         accepted: String,
     },
 }
 
-/// Default of the greatest accepted length difference between both sides of a seam, mm.
 pub const DEFAULT_LENGTH_TOLERANCE_MM: f64 = 1.0;
 
-/// A seam file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SeamFile {
-    /// Name of the style.
     pub name: String,
     /// Size that the file was made on, if it holds for several.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size: Option<String>,
-    /// Greatest accepted length difference between both sides of a seam, besides ease, mm.
+    /// Greatest accepted length difference between both sides of a seam, besides ease.
     #[serde(default = "default_tolerance")]
     pub length_tolerance_mm: f64,
-    /// Seam allowance of pieces for which the pattern file has only the cut line, mm.
+    /// Seam allowance of pieces for which the pattern file has only the cut line.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub allowance_mm: f64,
     /// Shrinkage of the cloth along the grain line from cutting to wearing, percent of the cut length.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub shrinkage_warp_pct: f64,
-    /// Shrinkage across the grain line, percent.
+    /// Shrinkage across the grain line.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub shrinkage_weft_pct: f64,
     /// Edges, `piece.edge`, that are in no seam on purpose. Edges with a measurement along them need no entry.
@@ -90,13 +78,11 @@ pub struct SeamFile {
     /// Pieces by identifier. Empty in a file that only adds measurements to a pattern with seams.
     #[serde(default)]
     pub piece: BTreeMap<String, PieceEntry>,
-    /// Seams between edges.
     #[serde(default)]
     pub seam: Vec<SeamEntry>,
-    /// Measurements: lengths on the pattern that are compared with the drape.
+    /// Lengths on the pattern that are compared with the drape.
     #[serde(default)]
     pub measurement: Vec<MeasurementEntry>,
-    /// Edges reinforced by a rib, a tape, a hem or a band.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub reinforce: Vec<ReinforceEntry>,
     /// Girths of the pattern, by level of the body.
@@ -105,10 +91,6 @@ pub struct SeamFile {
 }
 
 impl SeamFile {
-    /// Parses the bytes of a seam file. `file` is its name for messages.
-    ///
-    /// # Errors
-    /// [`StyleError::Syntax`] if they are not UTF-8 or not valid TOML of this form.
     pub fn parse(bytes: &[u8], file: &str) -> Result<Self, StyleError> {
         let syntax = |reason: String| StyleError::Syntax { file: file.to_owned(), reason };
         let text = std::str::from_utf8(bytes).map_err(|error| syntax(format!("{error}; UTF-8 text is accepted")))?;
@@ -125,13 +107,11 @@ fn default_tolerance() -> f64 {
     DEFAULT_LENGTH_TOLERANCE_MM
 }
 
-/// A piece of the style.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PieceEntry {
     /// Name of the block or piece in the pattern file.
     pub block: String,
-    /// Role of the piece.
     pub role: Role,
     /// True if the piece is worn as the mirror image of the drawing.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -140,7 +120,7 @@ pub struct PieceEntry {
     /// was made on. If empty, each size has the corners of its outline.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub corners_at: Vec<[f64; 2]>,
-    /// Seam allowances by edge, mm, where they differ from that of the file.
+    /// Allowances by edge, where they differ from that of the file.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub allowance_mm: BTreeMap<String, f64>,
     /// Edges by name, as first and last corner, counter-clockwise as drawn.
@@ -156,16 +136,14 @@ pub(crate) const SAME_EASE: f64 = 0.5;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SeamEntry {
-    /// Name of the seam, for messages.
     pub name: String,
-    /// Edges of one side, as `piece.edge`, in order along the seam.
+    /// As `piece.edge`, in order along the seam.
     pub a: Vec<String>,
-    /// Edges of the other side.
     pub b: Vec<String>,
     /// True if both sides run counter-clockwise round their pieces.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub same_direction: bool,
-    /// Ease, mm: length of `a` minus length of `b`.
+    /// Length of `a` minus length of `b`.
     #[serde(default, skip_serializing_if = "Ease::is_none")]
     pub ease_mm: Ease,
 }
@@ -174,9 +152,8 @@ pub struct SeamEntry {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Ease {
-    /// Equal in every size.
     Same(f64),
-    /// Different by size, by the name of the size.
+    /// By the name of the size.
     BySize(BTreeMap<String, f64>),
 }
 
@@ -187,14 +164,12 @@ impl Default for Ease {
 }
 
 impl Ease {
-    /// True if the ease is zero in every size.
-    #[must_use]
+    /// True if zero in every size.
     pub fn is_none(&self) -> bool {
         *self == Self::default()
     }
 
-    /// Ease of a size, mm, whose name matches in upper or lower case. `None` for a size without an entry.
-    #[must_use]
+    /// In mm, matched in upper or lower case. `None` for a size without an entry.
     pub fn of_size(&self, size: &str) -> Option<f64> {
         match self {
             Self::Same(ease) => Some(*ease),
@@ -217,7 +192,6 @@ impl fmt::Display for Ease {
     }
 }
 
-/// A measurement of the style.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MeasurementEntry {
@@ -225,21 +199,17 @@ pub struct MeasurementEntry {
     pub no: u32,
     /// Name for people to read, such as `Neck Opening`.
     pub name: String,
-    /// Closed girth or open length.
     pub kind: MeasurementKind,
-    /// Parts of the path, in order.
     pub path: Vec<Stretch>,
 }
 
-/// Reinforcement of edges.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReinforceEntry {
-    /// Edges as `piece.edge`.
+    /// As `piece.edge`.
     pub edges: Vec<String>,
-    /// Kind of the reinforcement.
     pub kind: Band,
-    /// Force per relative elongation, N.
+    /// Force per relative elongation.
     pub stiffness_n: f64,
     /// Ratio of the length of the band to that of the edge.
     #[serde(default = "unstretched")]
@@ -250,23 +220,17 @@ fn unstretched() -> f64 {
     1.0
 }
 
-/// Girth of the pattern at a level of the body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FitEntry {
-    /// Parts of the path, in order.
     pub path: Vec<Stretch>,
 }
 
-/// One part of a path.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Stretch {
-    /// Along an edge, `piece.edge`.
+    /// Edge `piece.edge`.
     Edge(String),
-    /// Straight line across a piece between two points, each written `piece.edge.start`, `.mid` or `.end`.
-    Line {
-        /// Both ends.
-        line: [String; 2],
-    },
+    /// Straight across a piece between two points, each `piece.edge.start`, `.mid` or `.end`.
+    Line { line: [String; 2] },
 }

@@ -1,26 +1,23 @@
 //! Order of sizes by their names, from the smallest to the largest.
 
-/// Sorts by the names of sizes, stably: by their number, or by their letters (XXS, 2XL). A double size (S/M) counts as
-/// its first. Other names come last.
+/// Sorts stably by number, or by letters (XXS, 2XL). A double size (S/M) counts as its first. Other names come last.
 pub fn sort<T>(sized: &mut [T], name: impl Fn(&T) -> &str) {
     sized.sort_by(|a, b| rank(name(a)).total_cmp(&rank(name(b))));
 }
 
-/// True if two names are of one size: equal but for case, or the same letters (XXL, 2XL).
-#[must_use]
+/// True if names are equal but for case, or have the same letters (XXL, 2XL).
 pub fn is_same(name: &str, other: &str) -> bool {
     let [name, other] = [name, other].map(|name| name.trim().to_ascii_uppercase());
     name == other || letters(&name).is_some_and(|rank| letters(&other) == Some(rank))
 }
 
-/// Sort key of a size.
 fn rank(size: &str) -> f64 {
     let size = size.trim().to_ascii_uppercase();
     let first = size.split(|c: char| !c.is_ascii_alphanumeric()).next().unwrap_or_default();
     letters(first).or_else(|| leading_number(&size)).unwrap_or(f64::INFINITY)
 }
 
-/// Rank of a letter size: 0 for M, one step for S or L, one more for each X.
+/// 0 for M, one step for S or L, one more for each X.
 fn letters(size: &str) -> Option<f64> {
     let stem = size.trim_end_matches(['S', 'M', 'L']);
     let extra = match stem.strip_suffix('X') {
@@ -37,7 +34,7 @@ fn letters(size: &str) -> Option<f64> {
     }
 }
 
-/// Number at the beginning of a size, with its fraction as in `34 1/2`.
+/// Reads a fraction, too, as in `34 1/2`.
 fn leading_number(size: &str) -> Option<f64> {
     let digits = size.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(size.len());
     let number: f64 = size[..digits].parse().ok()?;

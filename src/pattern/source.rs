@@ -4,33 +4,27 @@ use super::dxf::{self, CodePage, DxfError, PatternFile, Unit, UnitSource};
 use super::features::{self, FeaturesError};
 use super::garmentcode::{self, GarmentCodeError, Specification};
 
-/// Error of reading a pattern file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SourceError {
-    /// DXF, or a file of unknown kind that is read as DXF, is faulty.
+    /// Also a file of unknown kind, read as DXF.
     #[error(transparent)]
     Dxf(#[from] DxfError),
-    /// GarmentCode specification is faulty.
     #[error(transparent)]
     GarmentCode(#[from] GarmentCodeError),
-    /// File of pattern features is faulty.
     #[error(transparent)]
     Features(#[from] FeaturesError),
 }
 
-/// Kind of a pattern file, told by its first bytes.
+/// Kind that the first bytes of a file tell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// DXF, or an unknown kind.
     Dxf,
-    /// GarmentCode JSON, which holds its seams.
+    /// JSON that holds its seams.
     GarmentCode,
-    /// Pattern features as JSON.
     Features,
 }
 
-/// Tells the kind of a file from its bytes.
-#[must_use]
 pub fn kind(bytes: &[u8]) -> Kind {
     let text = without_mark(bytes);
     match text.starts_with(b"{") {
@@ -40,9 +34,7 @@ pub fn kind(bytes: &[u8]) -> Kind {
     }
 }
 
-/// True if a JSON file is a pattern: features, or panels as GarmentCode writes them. JSON files of other kinds often
-/// lie beside patterns.
-#[must_use]
+/// True for features, or panels as GarmentCode writes them. JSON files of other kinds often lie beside patterns.
 pub fn is_json_pattern(bytes: &[u8]) -> bool {
     #[derive(serde::Deserialize)]
     struct Head {
@@ -58,15 +50,12 @@ pub fn is_json_pattern(bytes: &[u8]) -> bool {
     features::is_features(text) || has_panels()
 }
 
-/// The text without the byte order mark and blanks at its beginning.
+/// Cuts off the byte order mark and blanks at the beginning.
 fn without_mark(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes).trim_ascii_start()
 }
 
 /// Reads the pieces of a pattern file of any kind. `unit` overrides the unit of a DXF file.
-///
-/// # Errors
-/// [`SourceError`] of the reader for that kind.
 ///
 /// # Examples
 /// ```

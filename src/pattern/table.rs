@@ -9,28 +9,22 @@ use csv::{ReaderBuilder, Trim};
 
 /// Possible column delimiters. The last one if none occurs.
 const DELIMITERS: [char; 3] = [';', '\t', ','];
-/// First characters of formulas.
 const FORMULA: [char; 4] = ['=', '+', '-', '@'];
 
-/// A row of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Row {
     /// Line of the file at which the row begins, from 1.
     pub line: usize,
-    /// Cells, without spaces at their ends.
+    /// Without spaces at their ends.
     pub cells: Vec<String>,
 }
 
-/// Bytes of a text without the byte order mark of UTF-8 that some editors put before it.
-#[must_use]
+/// Drops the byte order mark of UTF-8 that some editors write.
 pub fn unmarked(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
 }
 
-/// Decodes a file as UTF-8, without a byte order mark.
-///
-/// # Errors
-/// The line number of the first byte that is not UTF-8.
+/// Decodes UTF-8, without a byte order mark. The error is the line of the first byte that is not UTF-8.
 pub fn text(bytes: &[u8]) -> Result<&str, usize> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let mut lines = Lines::default();
@@ -39,9 +33,8 @@ pub fn text(bytes: &[u8]) -> Result<&str, usize> {
     Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
 }
 
-/// Rows of a table with columns divided by commas, semicolons or tabs, and any kind of line end. Rows without text are
-/// left out, and rows may differ in their number of cells.
-#[must_use]
+/// Takes commas, semicolons or tabs, and any kind of line end. Leaves out rows without text. Rows may differ in their
+/// number of cells.
 pub fn rows(text: &str) -> Vec<Row> {
     let mut reader = ReaderBuilder::new()
         .has_headers(false)
@@ -65,14 +58,14 @@ pub fn rows(text: &str) -> Vec<Row> {
     rows
 }
 
-/// Delimiter of the columns: the one that is most frequent in the first line with text, outside of quotes.
+/// Most frequent delimiter in the first line with text, outside of quotes.
 fn delimiter(text: &str) -> u8 {
     let head = text.split(['\r', '\n']).find(|line| !line.trim().is_empty()).unwrap_or_default();
     let count = |mark: &char| head.split('"').step_by(2).map(|plain| plain.matches(*mark).count()).sum::<usize>();
     DELIMITERS.into_iter().max_by_key(count).map_or(b',', |mark| mark as u8)
 }
 
-/// Counts lines that end in LF, CR LF or CR.
+/// Lines that end in LF, CR LF or CR.
 #[derive(Default)]
 struct Lines {
     at: usize,
@@ -94,14 +87,13 @@ impl Lines {
     }
 }
 
-/// Text of a cell, changed so that no spreadsheet takes it for a formula.
-#[must_use]
+/// Keeps spreadsheets from taking a cell for a formula.
 pub fn guarded(text: &str) -> Cow<'_, str> {
     let is_plain = !begins_as_formula(text.trim_start_matches('\'')) || is_number(text);
     if is_plain { text.into() } else { format!("'{text}").into() }
 }
 
-/// Text of a cell as it was before [`guarded`].
+/// Reverses [`guarded`].
 fn unguarded(cell: &str) -> &str {
     let text = cell.strip_prefix('\'').filter(|text| begins_as_formula(text.trim_start_matches('\'')));
     text.unwrap_or(cell)
@@ -117,8 +109,7 @@ fn is_number(text: &str) -> bool {
     text.parse::<f64>().is_ok() && !text.contains(|sign: char| sign.is_alphabetic() && !matches!(sign, 'e' | 'E'))
 }
 
-/// A row as a line of CSV. Cells with commas, quotes or line ends are quoted.
-#[must_use]
+/// Line of CSV. Cells with commas, quotes or line ends are quoted.
 pub fn line<'a>(cells: impl Iterator<Item = Cow<'a, str>>) -> String {
     let quoted = |cell: Cow<'a, str>| {
         let needs = cell.contains(['"', ',', '\n', '\r']);

@@ -3,12 +3,11 @@
 use super::piece::{Notch, Piece};
 use geom::V2;
 
-/// Distance below which a vertex counts as on the fold line, m.
 const ON_FOLD_M: f64 = 0.1e-3;
-/// Turning angle of the unfolded outline, degrees, below which an end of the mirror line is no corner.
+/// Turning angle of the unfolded outline below which an end of the mirror line is no corner.
 const CORNER_TURN_DEG: f64 = 10.0;
 
-/// Mirror line, which reflects points to the other half.
+/// Reflects points to the other half.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fold {
     from: V2,
@@ -16,7 +15,7 @@ pub(crate) struct Fold {
 }
 
 impl Fold {
-    /// Fold at a line. `None` for a line of no length.
+    /// `None` for a line of no length.
     pub(crate) fn at([from, to]: [V2; 2]) -> Option<Self> {
         Some(Self { from, along: (to - from).try_normalize(0.0)? })
     }
@@ -25,13 +24,12 @@ impl Fold {
         self.along.perp(&(point - self.from)).abs()
     }
 
-    /// Reflection of a point.
     pub(crate) fn reflected(&self, point: V2) -> V2 {
         let offset = point - self.from;
         self.from + self.along * (2.0 * self.along.dot(&offset)) - offset
     }
 
-    /// Joins both halves of a closed outline. `None` if no side of the outline lies along the mirror line.
+    /// Joins both halves of a closed outline. `None` if none of its sides lies along the mirror line.
     fn opened(&self, outline: &[V2]) -> Option<Vec<V2>> {
         let n = outline.len();
         let is_on = |i: usize| self.distance(&outline[i % n]) < ON_FOLD_M;
@@ -50,12 +48,11 @@ impl Fold {
 }
 
 impl Piece {
-    /// Returns the whole piece of a half piece, which has the mirror line (layer 6) as a side. `None` for a piece that
-    /// is whole already, or whose sew line has no side on its mirror line.
+    /// Opens a half piece, which has the mirror line (layer 6) as a side. `None` for a piece that is whole already, or
+    /// whose sew line has no side on its mirror line.
     ///
     /// Points, notches and lines are mirrored too. An end of the mirror line stays a turn point only if the unfolded
     /// outline turns there.
-    #[must_use]
     pub fn unfolded(&self) -> Option<Self> {
         let fold = Fold::at(self.mirror_line?)?;
         let outline = fold.opened(&self.outline)?;
@@ -100,7 +97,7 @@ impl Piece {
     }
 }
 
-/// Turning angle of an outline at a vertex, degrees. 180 for a point that is no vertex.
+/// 180 for a point that is no vertex.
 fn turn_deg(outline: &[V2], point: &V2) -> f64 {
     let n = outline.len();
     match (0..n).find(|&i| (outline[i] - point).norm() < ON_FOLD_M) {
@@ -115,7 +112,6 @@ mod tests {
     use geom::V2;
     use geom::polyline::signed_area;
 
-    /// Half of a drafted piece, cut along its centre line.
     #[test]
     fn half_a_front_opens_into_the_front() {
         let whole = tshirt(TshirtSize::S).pieces.remove(0);

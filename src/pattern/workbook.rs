@@ -12,46 +12,35 @@ use super::table::Row;
 
 /// Greatest size of an unpacked part, bytes.
 const MOST_UNPACKED: u64 = 64 << 20;
-/// Greatest number of columns of a sheet.
 const MOST_COLUMNS: usize = 200;
 /// Local header, central entry and end of central directory of a ZIP archive [PKWARE APPNOTE].
 const LOCAL: [u8; 4] = *b"PK\x03\x04";
 const CENTRAL: [u8; 4] = *b"PK\x01\x02";
 const END: [u8; 4] = *b"PK\x05\x06";
 
-/// Cells that are merged into one: first and last row, numbered as in the sheet, and first and last column, from 0.
+/// First and last rows, numbered as in the sheet, and columns, from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Merged {
-    /// First and last row.
     pub rows: [usize; 2],
-    /// First and last column.
     pub columns: [usize; 2],
 }
 
-/// A sheet of a workbook.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sheet {
-    /// Name of the sheet.
     pub name: String,
-    /// Rows, numbered as in the sheet. An error value such as `#REF!` stands in its cell.
+    /// Numbered as in the sheet. An error value such as `#REF!` stands in its cell.
     pub rows: Vec<Row>,
-    /// Merged cells.
     pub merged: Vec<Merged>,
 }
 
-/// A workbook.
 pub struct Workbook<'a> {
     archive: Archive<'a>,
     shared: Vec<String>,
-    /// Names of the sheets, and the parts of the archive that hold them.
+    /// Names, and the parts of the archive that hold them.
     sheets: Vec<(String, String)>,
 }
 
 impl<'a> Workbook<'a> {
-    /// Opens a workbook.
-    ///
-    /// # Errors
-    /// A message on the fault of the workbook, such as bytes that are no ZIP archive.
     pub fn open(bytes: &'a [u8]) -> Result<Self, String> {
         let archive = Archive::open(bytes)?;
         let shared = match archive.find("xl/sharedStrings.xml") {
@@ -62,15 +51,10 @@ impl<'a> Workbook<'a> {
         Ok(Self { archive, shared, sheets })
     }
 
-    /// Names of the sheets, in the order of the workbook.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.sheets.iter().map(|(name, _)| name.as_str())
     }
 
-    /// Reads a sheet by its index in [`Workbook::names`].
-    ///
-    /// # Errors
-    /// A message on the fault of the sheet.
     pub fn sheet(&self, index: usize) -> Result<Sheet, String> {
         let none = || "an archive without a worksheet".to_owned();
         let (name, path) = self.sheets.get(index).ok_or_else(none)?;
@@ -100,15 +84,13 @@ fn rows(document: &Document<'_>, shared: &[String]) -> Result<Vec<Row>, String> 
     Ok(rows)
 }
 
-/// Merged cells from their name, such as `B2:D3`.
 fn merged_cells(name: &str) -> Option<Merged> {
     let (first, last) = name.split_once(':')?;
     let row = |cell: &str| cell.trim_start_matches(|c: char| c.is_ascii_alphabetic()).parse::<usize>().ok();
     Some(Merged { rows: [row(first)?, row(last)?], columns: [first, last].map(column_of) })
 }
 
-/// Name of a cell as spreadsheets write it, such as `AB12`. Columns count from 0, rows from 1.
-#[must_use]
+/// Writes names such as `AB12`. Columns count from 0, rows from 1.
 pub fn cell_name(column: usize, row: usize) -> String {
     let mut letters = Vec::new();
     let mut rest = column + 1;
@@ -120,13 +102,11 @@ pub fn cell_name(column: usize, row: usize) -> String {
     format!("{letters}{row}")
 }
 
-/// True for an error value, such as `#REF!`.
-#[must_use]
 pub fn is_error(cell: &str) -> bool {
     cell.starts_with('#') && (cell.ends_with(['!', '?']) || cell == "#N/A")
 }
 
-/// Comparison of element names, ignoring namespaces.
+/// Ignores namespaces.
 trait Named {
     fn has_tag_name_in(&self, name: &str) -> bool;
 }
@@ -141,7 +121,7 @@ fn parse(text: &str) -> Result<Document<'_>, String> {
     Document::parse(text).map_err(|error| format!("a part that is no XML: {error}"))
 }
 
-/// Text below a node, without phonetic readings.
+/// Text without phonetic readings.
 fn text_below(node: &Node<'_, '_>) -> String {
     let is_text = |inner: &Node<'_, '_>| {
         inner.has_tag_name_in("t") && !inner.ancestors().any(|above| above.has_tag_name_in("rPh"))
@@ -154,7 +134,6 @@ fn shared_strings(text: &str) -> Result<Vec<String>, String> {
     Ok(document.descendants().filter(|node| node.has_tag_name_in("si")).map(|node| text_below(&node)).collect())
 }
 
-/// Index of the column of a cell name such as `AB12`.
 fn column_of(name: &str) -> usize {
     let letters = name.bytes().take_while(u8::is_ascii_alphabetic).take(4);
     letters.fold(0, |index, letter| 26 * index + usize::from(letter.to_ascii_uppercase() - b'A') + 1).saturating_sub(1)
@@ -173,7 +152,6 @@ fn value(cell: &Node<'_, '_>, shared: &[String]) -> Result<String, String> {
     Ok(text.trim().to_owned())
 }
 
-/// A file of an archive.
 #[derive(Clone, Debug)]
 struct Entry {
     name: String,
@@ -182,7 +160,6 @@ struct Entry {
     offset: usize,
 }
 
-/// A ZIP archive, read by its central directory.
 struct Archive<'a> {
     bytes: &'a [u8],
     entries: Vec<Entry>,
@@ -220,7 +197,7 @@ impl<'a> Archive<'a> {
         self.entries.iter().find(|entry| entry.name.eq_ignore_ascii_case(name))
     }
 
-    /// Names and parts of the worksheets, in the order of the workbook. A sheet that is not in the archive is left out.
+    /// In the order of the workbook. A sheet that is not in the archive is left out.
     fn sheets(&self) -> Result<Vec<(String, String)>, String> {
         let none = || "an archive without a worksheet".to_owned();
         let workbook = self.text(self.find("xl/workbook.xml").ok_or_else(none)?)?;
@@ -264,7 +241,7 @@ impl<'a> Archive<'a> {
     }
 }
 
-/// Little-endian number of `size` bytes.
+/// Little-endian, of `size` bytes.
 fn number(bytes: &[u8], at: usize, size: usize) -> Option<usize> {
     let field = bytes.get(at..at.checked_add(size)?)?;
     Some(field.iter().rev().fold(0, |value, &byte| value << 8 | usize::from(byte)))

@@ -3,7 +3,6 @@
 use geom::{TriMesh, V3};
 use nalgebra::Vector3;
 
-/// The four standard views of a drape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum View {
     /// From `+y`; the subject's right is at the left of the picture.
@@ -12,16 +11,13 @@ pub enum View {
     Side,
     /// From `-y`, behind the subject; the subject's right is at the right of the picture.
     Back,
-    /// From between front and side.
     Quarter,
 }
 
 impl View {
-    /// All views, in the order in which they are shown.
     pub const ALL: [Self; 4] = [Self::Front, Self::Side, Self::Back, Self::Quarter];
 
     /// Name under pictures and in file names.
-    #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Front => "front",
@@ -31,8 +27,7 @@ impl View {
         }
     }
 
-    /// Angle about `z` from the front towards the subject's right, degrees.
-    #[must_use]
+    /// Angle about `z` from the front towards the subject's right.
     pub fn azimuth_deg(self) -> f64 {
         match self {
             Self::Front => 0.0,
@@ -48,7 +43,7 @@ impl View {
 pub struct Frame {
     /// World point at the picture's centre, m.
     pub centre: V3,
-    /// World length that fills the picture from top to bottom, m.
+    /// World length from top to bottom of the picture.
     pub height_m: f64,
 }
 
@@ -56,7 +51,6 @@ impl Frame {
     /// Smallest frame, with a margin, that contains all meshes in every view. `aspect` is the pictures' width divided
     /// by their height. Given every subject of a study it makes one scale for all; given a garment alone, a close view.
     /// Without vertices it shows the surroundings of the origin.
-    #[must_use]
     pub fn enclosing<'a>(meshes: impl IntoIterator<Item = &'a TriMesh>, aspect: f64) -> Self {
         let meshes: Vec<&TriMesh> = meshes.into_iter().collect();
         let bounds = meshes.iter().filter_map(|m| m.bounds()).reduce(|a, b| (a.0.inf(&b.0), a.1.sup(&b.1)));
@@ -76,23 +70,20 @@ impl Frame {
 /// An orthographic camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Frame that the camera shows.
     pub frame: Frame,
-    /// Angle about `z` from the front towards the subject's right, degrees.
+    /// Angle about `z` from the front towards the subject's right.
     pub azimuth_deg: f64,
-    /// Angle above the horizon, degrees.
+    /// Angle above the horizon.
     pub elevation_deg: f64,
 }
 
 impl Camera {
     /// Camera of a view, a little above the horizon so that the floor shows.
-    #[must_use]
     pub fn new(view: View, frame: Frame) -> Self {
         Self { frame, azimuth_deg: view.azimuth_deg(), elevation_deg: 5.0 }
     }
 
     /// Unit vectors of the picture in world coordinates: to the right, up, and towards the viewer.
-    #[must_use]
     pub fn axes(&self) -> [V3; 3] {
         let (sin_a, cos_a) = self.azimuth_deg.to_radians().sin_cos();
         let (sin_e, cos_e) = self.elevation_deg.to_radians().sin_cos();
@@ -102,7 +93,6 @@ impl Camera {
     }
 }
 
-/// Projection of world points to samples of a picture, and back.
 #[derive(Clone, Copy)]
 pub(super) struct Projection {
     /// Unit vectors to the right, up and towards the viewer, in world coordinates.
@@ -141,7 +131,6 @@ impl Projection {
         ]
     }
 
-    /// World point of a sample at a depth: the inverse of [`Projection::project`].
     pub fn unproject(&self, x: f32, y: f32, depth: f32) -> Vector3<f32> {
         self.centre + self.axes[0] * ((x - self.half[0]) / self.per_m)
             - self.axes[1] * ((y - self.half[1]) / self.per_m)

@@ -6,13 +6,11 @@ pub struct Rgb(pub u8, pub u8, pub u8);
 
 impl Rgb {
     /// Formats the colour as `#rrggbb`.
-    #[must_use]
     pub fn hex(self) -> String {
         format!("#{:02x}{:02x}{:02x}", self.0, self.1, self.2)
     }
 
     /// Parses `rrggbb`, with or without a `#`; `None` for any other text.
-    #[must_use]
     pub fn from_hex(text: &str) -> Option<Self> {
         let hex = text.strip_prefix('#').unwrap_or(text);
         let is_hex = hex.len() == 6 && hex.bytes().all(|b| b.is_ascii_hexdigit());
@@ -26,14 +24,12 @@ impl Rgb {
     }
 
     /// Relative luminance, 0 to 1 [WCAG 2.2].
-    #[must_use]
     pub fn luminance(self) -> f64 {
         let [r, g, b] = self.linear().map(f64::from);
         0.2126 * r + 0.7152 * g + 0.0722 * b
     }
 
     /// Contrast ratio of two colours, 1 to 21 [WCAG 2.2].
-    #[must_use]
     pub fn contrast(self, other: Self) -> f64 {
         let (a, b) = (self.luminance(), other.luminance());
         (a.max(b) + 0.05) / (a.min(b) + 0.05)
@@ -68,7 +64,6 @@ impl Encoder {
     }
 }
 
-/// A colour map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColourMap {
     /// Blue, near white in the middle, orange. For values on both sides of a centre.
@@ -109,7 +104,6 @@ impl ColourMap {
     }
 
     /// Colour at `t`, from 0 to 1; beyond, the colour of the nearer end.
-    #[must_use]
     pub fn at(self, t: f64) -> Rgb {
         let stops = self.stops();
         let place = t.clamp(0.0, 1.0) * (stops.len() - 1) as f64;
@@ -123,11 +117,8 @@ impl ColourMap {
 /// Mapping of values to colours, the same for a whole study so that its pictures are comparable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scale {
-    /// Colour map.
     pub map: ColourMap,
-    /// Value of the first colour.
     pub low: f64,
-    /// Value of the last colour.
     pub high: f64,
     /// Quantity, such as `stretch along the warp`.
     pub label: String,
@@ -136,27 +127,21 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// Diverging scale from `centre - reach` to `centre + reach`.
-    #[must_use]
     pub fn diverging(centre: f64, reach: f64, label: impl Into<String>, unit: impl Into<String>) -> Self {
         let (low, high) = (centre - reach, centre + reach);
         Self { map: ColourMap::Diverging, low, high, label: label.into(), unit: unit.into() }
     }
 
     /// Scale from near white to brown, from 0 to `high`.
-    #[must_use]
     pub fn rising(high: f64, label: impl Into<String>, unit: impl Into<String>) -> Self {
         Self { map: ColourMap::Rising, low: 0.0, high, label: label.into(), unit: unit.into() }
     }
 
-    /// Sequential scale from `low` to `high`.
-    #[must_use]
     pub fn sequential(low: f64, high: f64, label: impl Into<String>, unit: impl Into<String>) -> Self {
         Self { map: ColourMap::Sequential, low, high, label: label.into(), unit: unit.into() }
     }
 
-    /// Colour of a value; mid grey for NaN.
-    #[must_use]
+    /// Returns mid grey for NaN.
     pub fn colour(&self, value: f64) -> Rgb {
         let t = (value - self.low) / (self.high - self.low);
         if t.is_finite() { self.map.at(t) } else { Rgb(0x9a, 0x9a, 0x9a) }

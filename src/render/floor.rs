@@ -5,27 +5,23 @@ use nalgebra::Vector3;
 /// Cells along a side of the floor.
 const CELLS: usize = 96;
 
-/// Light on the floor under the subject, on a square grid.
+/// Light on the floor under the subject, on a square grid. Lengths in metres.
 #[derive(Default)]
 pub(super) struct Floor {
-    /// Height of the floor, m.
     pub z: f32,
-    /// Corner of the grid, m.
+    /// Corner of the grid.
     low: [f32; 2],
-    /// Side of a cell, m.
     cell: f32,
     /// Share of the sky that each cell sees, row by row.
     pub openness: Vec<f32>,
 }
 
 impl Floor {
-    /// Makes a square floor around a centre.
     pub fn new(z: f32, centre: Vector3<f32>, radius: f32) -> Self {
         let cell = 2.0 * radius / CELLS as f32;
         Self { z, low: [centre.x - radius, centre.y - radius], cell, openness: vec![0.0; CELLS * CELLS] }
     }
 
-    /// Smooths the traces of single light directions, and fades the shadow out towards the border.
     pub fn soften(&mut self) {
         for _ in 0..8 {
             let before = self.openness.clone();

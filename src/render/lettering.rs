@@ -5,12 +5,9 @@ use super::{Camera, RenderError, Scene, View, png, rasterise_svg, render};
 use image::{Rgba, RgbaImage, imageops};
 use std::fmt::Write;
 
-/// A picture of a contact sheet, with its label.
 #[derive(Clone, Debug)]
 pub struct Cell {
-    /// Picture that the cell shows.
     pub picture: RgbaImage,
-    /// Label below the picture.
     pub label: String,
 }
 
@@ -18,9 +15,6 @@ const INK: &str = "#22262b";
 const PAPER: Rgba<u8> = Rgba([255, 255, 255, 255]);
 
 /// Arranges pictures in rows of `columns`, each above its label, below a title unless `title` is empty.
-///
-/// # Errors
-/// [`RenderError::Size`] where there is nothing to show or the sheet would be too large.
 pub fn contact_sheet(title: &str, cells: &[Cell], columns: usize) -> Result<RgbaImage, RenderError> {
     let columns = columns.clamp(1, cells.len().max(1)) as u32;
     let cell_width = cells.iter().map(|c| c.picture.width()).max().unwrap_or(0);
@@ -49,9 +43,6 @@ pub fn contact_sheet(title: &str, cells: &[Cell], columns: usize) -> Result<Rgba
 
 /// Takes pictures of a scene in all four views, each `width` by `height` pixels, and arranges them in a row. `camera`
 /// gives the camera of each view. Returns a PNG file.
-///
-/// # Errors
-/// [`RenderError::Size`] where the sheet would be too large.
 pub fn from_all_sides(
     scene: &Scene,
     camera: impl Fn(View) -> Camera,
@@ -80,9 +71,6 @@ fn escape(text: &str) -> String {
 }
 
 /// Draws the legend of a scale into the lower left corner of a picture: colour bar, five ticks, label and unit.
-///
-/// # Errors
-/// [`RenderError::Svg`], only by a fault of this function's own drawing.
 pub fn draw_legend(picture: &mut RgbaImage, scale: &Scale) -> Result<(), RenderError> {
     let text = f64::from((picture.width() / 45).clamp(10, 24));
     let (bar_width, bar_height) = (text * 1.1, text * 13.0);

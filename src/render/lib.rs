@@ -31,80 +31,30 @@ pub use weave::Weave;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{DynamicImage, RgbaImage};
 
-/// Reason why a picture could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum RenderError {
-    /// A triangle refers to a vertex that does not exist.
     #[error("layer {layer}, triangle {triangle}: vertex {vertex} does not exist; the mesh has {vertices} vertices")]
-    NoSuchVertex {
-        /// Index of the layer.
-        layer: usize,
-        /// Index of the triangle in its mesh.
-        triangle: usize,
-        /// Vertex that the triangle refers to.
-        vertex: usize,
-        /// Number of vertices of the mesh.
-        vertices: usize,
-    },
-    /// A position is not finite.
+    NoSuchVertex { layer: usize, triangle: usize, vertex: usize, vertices: usize },
     #[error(
         "layer {layer}, vertex {vertex}: position is not finite; every coordinate must be a finite number of metres"
     )]
-    NotFinite {
-        /// Index of the layer.
-        layer: usize,
-        /// Index of the vertex in its mesh.
-        vertex: usize,
-    },
-    /// A scalar field or texture does not fit its mesh.
+    NotFinite { layer: usize, vertex: usize },
     #[error("layer {layer}: {found} values or texture coordinates given, the mesh needs {needed}")]
-    PaintLength {
-        /// Index of the layer.
-        layer: usize,
-        /// Number of values, texture coordinates or texture numbers given.
-        found: usize,
-        /// Number that the mesh needs: that of its vertices or triangles.
-        needed: usize,
-    },
-    /// A triangle refers to a texture that does not exist.
+    PaintLength { layer: usize, found: usize, needed: usize },
     #[error("layer {layer}: a triangle names a texture beyond the {textures} that are there")]
-    NoSuchTexture {
-        /// Index of the layer.
-        layer: usize,
-        /// Number of textures of the layer.
-        textures: usize,
-    },
-    /// The scene has no such layer.
+    NoSuchTexture { layer: usize, textures: usize },
     #[error("no layer {layer}; the scene has {layers}, counted from 0")]
-    NoSuchLayer {
-        /// Index that was given.
-        layer: usize,
-        /// Number of layers of the scene.
-        layers: usize,
-    },
-    /// The size of a picture is out of range.
+    NoSuchLayer { layer: usize, layers: usize },
     #[error("picture of {width} x {height} pixels; each side must be 1 to 8192")]
-    Size {
-        /// Width that was given, pixels.
-        width: u32,
-        /// Height that was given, pixels.
-        height: u32,
-    },
-    /// An SVG drawing could not be read.
+    Size { width: u32, height: u32 },
     #[error("SVG drawing: {0}")]
     Svg(String),
-    /// Pictures cannot be frames of one animation.
     #[error("animation: {0}")]
     Animation(String),
-    /// An encoder refused a picture.
     #[error("picture encoding: {0}")]
     Encode(#[from] image::ImageError),
 }
 
-/// Encodes a picture as a PNG file.
-///
-/// # Errors
-/// [`RenderError::Encode`] for an empty picture.
 pub fn png(picture: &RgbaImage) -> Result<Vec<u8>, RenderError> {
     let mut bytes = Vec::new();
     let encoder = PngEncoder::new_with_quality(&mut bytes, CompressionType::Default, FilterType::Adaptive);
@@ -117,11 +67,7 @@ pub fn png(picture: &RgbaImage) -> Result<Vec<u8>, RenderError> {
     Ok(bytes)
 }
 
-/// Encodes pictures of one size as an animated PNG file, each shown for `each_ms` milliseconds, in an endless loop.
-/// Programs without support for animation show the first picture.
-///
-/// # Errors
-/// [`RenderError::Animation`] where there is no picture or their sizes differ.
+/// Encodes pictures of one size as an endless animation. Programs without support for animation show the first picture.
 pub fn animated_png(pictures: &[RgbaImage], each_ms: u32) -> Result<Vec<u8>, RenderError> {
     let Some(first) = pictures.first() else { return Err(RenderError::Animation("no pictures".into())) };
     if pictures.iter().any(|picture| picture.dimensions() != first.dimensions()) {
@@ -142,9 +88,6 @@ pub fn animated_png(pictures: &[RgbaImage], each_ms: u32) -> Result<Vec<u8>, Ren
 }
 
 /// Encodes a picture as a JPEG file of quality 85, about a quarter as large as PNG. Transparency becomes white.
-///
-/// # Errors
-/// [`RenderError::Encode`] for an empty picture.
 pub fn jpeg(picture: &RgbaImage) -> Result<Vec<u8>, RenderError> {
     let mut rgb = image::RgbImage::new(picture.width(), picture.height());
     for (to, from) in rgb.pixels_mut().zip(picture.pixels()) {

@@ -13,8 +13,7 @@ const FULL: f32 = 0.2;
 /// Difference in depth above which a neighbour belongs to another surface, divided by the distance of the neighbours.
 const REACH: f32 = 3.0;
 
-/// Factor for the light of each pixel, around 1. `depth` is in m, infinite where there is no surface; `per_m` in pixels
-/// per metre.
+/// Factor for the light of each pixel, around 1. `depth` in m, infinite without a surface, `per_m` in pixels per m.
 pub(super) fn relief(depth: &[f32], width: usize, per_m: f32) -> Vec<f32> {
     let mut gain = vec![1.0_f32; depth.len()];
     for (distance, strength) in RINGS {
@@ -29,7 +28,6 @@ pub(super) fn relief(depth: &[f32], width: usize, per_m: f32) -> Vec<f32> {
     gain
 }
 
-/// Neighbours of a pixel at one distance.
 struct Ring<'a> {
     depth: &'a [f32],
     width: usize,
@@ -77,7 +75,6 @@ impl<'a> Ring<'a> {
         mean / (1.0 + mean.abs())
     }
 
-    /// Contribution of two opposite neighbours at the depths `a` and `b`.
     fn pair(&self, pixel: usize, a: f32, b: f32) -> f32 {
         let (a, b) = (a - self.depth[pixel], b - self.depth[pixel]);
         let apart = a.abs().max(b.abs()) / (REACH * self.distance);
@@ -85,8 +82,7 @@ impl<'a> Ring<'a> {
     }
 }
 
-/// Weight of a pair whose neighbours are at a share of the reach. It falls to 0 over the second half of the reach, so
-/// that no line appears where pairs cease to count.
+/// Weight of a pair at a share of the reach. It falls to 0 over the second half, so that no line appears.
 fn weight_of(apart: f32) -> f32 {
     (2.0 - 2.0 * apart).min(1.0)
 }
@@ -98,7 +94,6 @@ mod tests {
     const SIDE: usize = 64;
     const PER_M: f32 = 400.0;
 
-    /// Least and greatest gain over the middle of a picture of the given depths.
     fn gains(depth: impl Fn(f32, f32) -> f32) -> (f32, f32) {
         let place = |k: usize| (k as f32 - SIDE as f32 / 2.0) / PER_M;
         let depths: Vec<f32> = (0..SIDE * SIDE).map(|k| depth(place(k % SIDE), place(k / SIDE))).collect();

@@ -9,12 +9,10 @@ use geom::{TriMesh, V2, V3};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
-/// Appearance of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     /// Colour of the side to which normals point.
     pub front: Rgb,
-    /// Colour of the other side.
     pub back: Rgb,
     /// Distance by which the surface is drawn behind its true place, m: skin recedes behind cloth that lies on it.
     pub recede_m: f64,
@@ -23,20 +21,15 @@ pub struct Material {
 }
 
 impl Material {
-    /// Matt dress form.
-    #[must_use]
     pub fn form() -> Self {
         Self::body(Rgb(0xd8, 0xd1, 0xc8))
     }
 
     /// Dress form under a map: a neutral mid grey, darker than cloth whose value is near the middle of its scale.
-    #[must_use]
     pub fn form_under_map() -> Self {
         Self::body(Rgb(0x8e, 0x92, 0x98))
     }
 
-    /// Skin of a colour.
-    #[must_use]
     pub fn skin(colour: Rgb) -> Self {
         Self::body(colour)
     }
@@ -46,7 +39,6 @@ impl Material {
     }
 
     /// Cloth of a colour, with a darker and greyer wrong side.
-    #[must_use]
     pub fn cloth(front: Rgb) -> Self {
         let grey = (u16::from(front.0) + u16::from(front.1) + u16::from(front.2)) / 3;
         let dull = |v: u8| ((u16::from(v) * 3 + grey) / 4 * 4 / 5) as u8;
@@ -54,25 +46,21 @@ impl Material {
     }
 
     /// Cloth draped by FEM-GS: green.
-    #[must_use]
     pub fn fem() -> Self {
         Self::cloth(Rgb(0x62, 0xb3, 0x8c))
     }
 
     /// Garment below the one that is shown: the grey of undyed linen.
-    #[must_use]
     pub fn under() -> Self {
         Self::cloth(Rgb(0xc4, 0xbd, 0xae))
     }
 
     /// Cloth of Hybrid-GS after pop-up: yellow.
-    #[must_use]
     pub fn popup() -> Self {
         Self::cloth(Rgb(0xea, 0xbe, 0x4c))
     }
 
     /// Cloth of Hybrid-GS after draping: blue.
-    #[must_use]
     pub fn hybrid() -> Self {
         Self::cloth(Rgb(0x5f, 0x97, 0xd0))
     }
@@ -81,27 +69,20 @@ impl Material {
 /// Values of vertices (interpolated) or of triangles (constant).
 #[derive(Clone, Debug, PartialEq)]
 pub enum Values {
-    /// One value for each vertex.
     Vertices(Vec<f64>),
-    /// One value for each triangle.
     Triangles(Vec<f64>),
 }
 
-/// Paint on the front side of a layer.
 #[derive(Clone, Debug)]
 pub enum Paint {
-    /// The front colour of the material.
     Plain,
-    /// Values with the scale that colours them.
     Field(Values, Scale),
-    /// Textures on the cloth.
     Printed(Print),
 }
 
 /// Textures on a layer, which may be cut from several cloths.
 #[derive(Clone, Debug)]
 pub struct Print {
-    /// One texture for each cloth.
     pub textures: Vec<Texture>,
     /// Index of the texture of each triangle.
     pub of: Vec<usize>,
@@ -109,32 +90,24 @@ pub struct Print {
     pub places: Vec<V2>,
 }
 
-/// A mesh with its appearance.
 #[derive(Clone, Debug)]
 pub struct Layer<'a> {
     /// Surface, m; paint is on the side to which its normals point.
     pub mesh: &'a TriMesh,
-    /// Colours of both sides and other properties of the drawing.
     pub material: Material,
-    /// Paint of the layer's front side.
     pub paint: Paint,
 }
 
 impl<'a> Layer<'a> {
-    /// Makes a layer in the colour of its material.
-    #[must_use]
     pub fn new(mesh: &'a TriMesh, material: Material) -> Self {
         Self { mesh, material, paint: Paint::Plain }
     }
 
-    /// Returns the same layer with a paint.
-    #[must_use]
     pub fn painted(self, paint: Paint) -> Self {
         Self { paint, ..self }
     }
 }
 
-/// Appearance of a layer in a scene.
 pub(super) struct Look {
     pub material: Material,
     pub paint: Paint,
@@ -143,8 +116,7 @@ pub(super) struct Look {
 }
 
 impl Look {
-    /// Group of triangles over which colours are continuous: a single triangle where values are constant on triangles,
-    /// a cloth where textures are printed.
+    /// Group of continuous colour: a triangle where values are constant, a cloth where textures are printed.
     pub fn parts(&self, triangle: usize) -> usize {
         let own = triangle - self.first_triangle;
         match &self.paint {
@@ -155,7 +127,6 @@ impl Look {
     }
 }
 
-/// An edge with its triangles.
 pub(super) struct Edge {
     pub ends: [u32; 2],
     /// The two triangles. The second is [`NOTHING`] at a border, and where more than two meet.
@@ -167,10 +138,8 @@ pub struct Scene {
     pub(super) positions: Vec<Vector3<f32>>,
     pub(super) normals: Vec<Vector3<f32>>,
     pub(super) triangles: Vec<[usize; 3]>,
-    /// Layer of each triangle.
     pub(super) layer_of: Vec<usize>,
     pub(super) looks: Vec<Look>,
-    /// Distinct edges.
     pub(super) edges: Vec<Edge>,
     /// Vertices at the ends of each segment of the seam lines.
     pub(super) seams: Vec<[usize; 2]>,
@@ -182,11 +151,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Joins the layers and computes the light that reaches each vertex from all around (about 0.1 s for a dressed
-    /// body).
-    ///
-    /// # Errors
-    /// When a triangle refers to a missing vertex, a position is not finite, or a field does not fit its mesh.
+    /// Joins the layers and computes the light on each vertex from all around (about 0.1 s for a dressed body).
     pub fn new(layers: Vec<Layer<'_>>) -> Result<Self, RenderError> {
         let mut scene = Self {
             positions: Vec::new(),
@@ -215,11 +180,7 @@ impl Scene {
         Ok(scene)
     }
 
-    /// Gives a layer another appearance. Light is computed again, which takes longest, only if the layer recedes by
-    /// another distance.
-    ///
-    /// # Errors
-    /// When a field or texture does not fit the mesh of the layer, or the scene has no such layer.
+    /// Gives a layer another appearance. Light, which takes longest, is computed again only if the recess differs.
     pub fn paint(&mut self, layer: usize, material: Material, paint: Paint) -> Result<(), RenderError> {
         let next = self.looks.get(layer + 1).map(|look| [look.first_vertex, look.first_triangle]);
         let [vertices, triangles] = next.unwrap_or([self.positions.len(), self.triangles.len()]);
@@ -252,13 +213,11 @@ impl Scene {
         self.looks.push(Look { material: layer.material, paint: layer.paint, first_vertex, first_triangle });
     }
 
-    /// Corners of a triangle, from the projected vertices.
     pub(super) fn corners(&self, triangle: usize, projected: &[[f32; 3]]) -> [[f32; 3]; 3] {
         let [a, b, c] = self.triangles[triangle];
         [projected[a], projected[b], projected[c]]
     }
 
-    /// Distance by which a triangle is drawn behind its true place, m.
     pub(super) fn recede(&self, triangle: usize) -> f32 {
         self.looks[self.layer_of[triangle]].material.recede_m as f32
     }

@@ -21,7 +21,6 @@ const RIM: usize = 8;
 const SOFT: f32 = 9.0;
 /// Brightness of the wrong side of printed cloth, relative to the print.
 const WRONG_SIDE: f32 = 0.6;
-/// Number of steps of a tabulated colour scale.
 const RAMP: usize = 1024;
 
 /// Offset of a sample of the shadow map from a point, in map samples.
@@ -44,9 +43,6 @@ fn taps() -> [Tap; TAPS] {
 
 /// Takes a picture of the scene.
 ///
-/// # Errors
-/// [`RenderError::Size`] where a side has no pixels or more than 8192.
-///
 /// # Examples
 /// ```
 /// use geom::{TriMesh, V3};
@@ -67,11 +63,8 @@ pub fn render(scene: &Scene, camera: &Camera, width: u32, height: u32) -> Result
     shoot(scene, camera, (width, height), 255)
 }
 
-/// Takes a picture as [`render`] does, transparent where there is no mesh. Transparent pixels keep the colours of
-/// backdrop and floor.
-///
-/// # Errors
-/// Those of [`render`].
+/// Takes a picture as [`render`] does, transparent where there is no mesh. Those pixels keep backdrop and floor
+/// colours.
 pub fn cutout(scene: &Scene, camera: &Camera, width: u32, height: u32) -> Result<RgbaImage, RenderError> {
     shoot(scene, camera, (width, height), 0)
 }
@@ -93,7 +86,6 @@ fn shoot(scene: &Scene, camera: &Camera, (width, height): (u32, u32), backdrop: 
     Ok(picture)
 }
 
-/// Shadow map: depth along the key light.
 struct ShadowMap {
     projection: Projection,
     depth: Vec<f32>,
@@ -138,13 +130,11 @@ impl ShadowMap {
 /// Linear light: red, green, blue.
 type Colour = Vector3<f32>;
 
-/// Data for the colour of a pixel.
 struct Studio<'a> {
     scene: &'a Scene,
     projection: Projection,
     /// Pixels across and down.
     size: [usize; 2],
-    /// Vertices projected to the picture.
     projected: Vec<[f32; 3]>,
     visible: Visible,
     shadow: ShadowMap,
@@ -312,7 +302,6 @@ fn ramp(paint: &Paint) -> Vec<Colour> {
     [linear(scale.colour(f64::NAN))].into_iter().chain((0..=RAMP).map(step)).collect()
 }
 
-/// Colour of a value on a [`ramp`].
 fn look_up(ramp: &[Colour], scale: &Scale, value: f64) -> Colour {
     let t = (value - scale.low) / (scale.high - scale.low);
     if t.is_finite() { ramp[1 + (t.clamp(0.0, 1.0) * RAMP as f64).round() as usize] } else { ramp[0] }

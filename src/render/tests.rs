@@ -28,7 +28,6 @@ fn sphere(radius: f64, centre: V3) -> TriMesh {
     lathe(&profile, 64, |p| p + centre)
 }
 
-/// A capsule of a person's size and a flared, fluted tube over it.
 fn dressed_capsule() -> (TriMesh, TriMesh) {
     let profile: Vec<_> = (0..=60)
         .map(|i| {
@@ -192,8 +191,7 @@ fn a_check_of_20_mm_measures_20_mm_along_warp_and_weft() {
     }
 }
 
-/// Cloth wound around a cylinder without strain: squares look narrower towards its sides, but are 20 mm along the
-/// cloth.
+/// Cloth wound around a cylinder without strain: squares look narrower at its sides, but are 20 mm along the cloth.
 #[test]
 fn a_check_on_a_cylinder_measures_20_mm_along_the_cloth() {
     const RADIUS: f64 = 0.15;

@@ -6,7 +6,6 @@ use image::RgbaImage;
 use nalgebra::Vector3;
 use std::ops::Range;
 
-/// Mapping of the pattern plane to texture coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mapping {
     /// Picture once on each piece: `u = (x - x_min) / R`, `v = (y - y_min) / R`, where `R` is the longer side of the
@@ -14,7 +13,7 @@ pub enum Mapping {
     Piece,
     /// Fabric as it is woven: repeats of a fixed size, `v` along the grain, the same on every piece.
     Fabric {
-        /// Length of one repeat across and along the grain, m.
+        /// Lengths across and along the grain.
         repeat_m: [f64; 2],
     },
 }
@@ -23,7 +22,6 @@ pub enum Mapping {
 ///
 /// `rest` has the vertices in the planes of their pieces, m. A piece is its range of vertices, the unit vector of its
 /// grain and its mapping. Vertices of no piece keep `(0, 0)`.
-#[must_use]
 pub fn texture_coordinates(rest: &[V2], pieces: &[(Range<usize>, V2, Mapping)]) -> Vec<V2> {
     let mut coordinates = vec![V2::zeros(); rest.len()];
     for (vertices, grain, mapping) in pieces {
@@ -43,14 +41,12 @@ pub fn texture_coordinates(rest: &[V2], pieces: &[(Range<usize>, V2, Mapping)]) 
     coordinates
 }
 
-/// A picture that repeats in both directions, stored in halved sizes too (a mipmap) so that it does not alias when it
-/// is small.
+/// Picture that repeats in both directions, stored as a mipmap so that it does not alias when it is small.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
     levels: Vec<Level>,
 }
 
-/// A level of the mipmap.
 #[derive(Clone, Debug, PartialEq)]
 struct Level {
     width: usize,
@@ -61,7 +57,6 @@ struct Level {
 
 impl Texture {
     /// Makes a texture from a picture of one repeat; an empty picture gives white.
-    #[must_use]
     pub fn new(picture: &RgbaImage) -> Self {
         let (width, height) = (picture.width().max(1) as usize, picture.height().max(1) as usize);
         let mut texels: Vec<Vector3<f32>> = picture.pixels().map(|p| Rgb(p[0], p[1], p[2]).linear().into()).collect();
@@ -73,9 +68,7 @@ impl Texture {
         Self { levels }
     }
 
-    /// Woven check: in both directions one band of a colour in each repeat, on a light ground. It shows the grain and
-    /// every distortion of the cloth.
-    #[must_use]
+    /// Woven check of one band in each repeat in both directions, which shows the grain and every distortion.
     pub fn gingham(colour: Rgb) -> Self {
         const SIDE: u32 = 64;
         let pale = |v: u8, coverage: f32| (255.0 - (255.0 - f32::from(v)) * coverage) as u8;
@@ -90,7 +83,6 @@ impl Texture {
     }
 
     /// Height of a repeat divided by its width.
-    #[must_use]
     pub fn aspect(&self) -> f64 {
         self.levels[0].height as f64 / self.levels[0].width as f64
     }

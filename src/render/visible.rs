@@ -9,7 +9,6 @@ use super::scene::{Edge, Scene};
 
 /// Samples along a side of a supersampled pixel.
 const FINE: usize = 3;
-/// Samples of a supersampled pixel.
 pub(super) const SAMPLES: usize = FINE * FINE;
 /// Depth behind the visible surface at which a seam line is still drawn, m, since skin and cloth lie on each other.
 const SEAM_DEPTH: f32 = 0.006;
@@ -20,7 +19,6 @@ pub(super) struct Fine {
     depth: [f32; SAMPLES],
     /// Triangle of each sample; `NOTHING` where there is none.
     pub triangle: [u32; SAMPLES],
-    /// True for each sample on a seam line.
     pub stitched: [bool; SAMPLES],
 }
 
@@ -29,7 +27,6 @@ impl Fine {
         Self { depth: [f32::INFINITY; SAMPLES], triangle: [NOTHING; SAMPLES], stitched: [false; SAMPLES] };
 }
 
-/// Visible surfaces of a picture.
 pub(super) struct Visible {
     width: usize,
     height: usize,
@@ -42,7 +39,6 @@ pub(super) struct Visible {
     fine: Vec<Fine>,
 }
 
-/// Offset of sample `k` within its pixel.
 pub(super) fn offset(k: usize) -> [f32; 2] {
     let middle = |cell: usize| (cell as f32 + 0.5) / FINE as f32;
     [middle(k % FINE), middle(k / FINE)]
@@ -90,14 +86,12 @@ impl Visible {
         }
     }
 
-    /// Pixel that contains a place of the picture.
     fn pixel(&self, x: f32, y: f32) -> Option<usize> {
         let inside = x >= 0.0 && y >= 0.0 && x < self.width as f32 && y < self.height as f32;
         inside.then(|| y as usize * self.width + x as usize)
     }
 
-    /// Marks pixels whose neighbour to the right or below shows another layer, or another group of a layer with groups
-    /// (`Look::parts`).
+    /// Marks pixels whose right or lower neighbour shows another layer, or another group of it (`Look::parts`).
     fn mark_layers(&mut self, scene: &Scene) {
         let differ = |a: u32, b: u32| {
             a != b
@@ -119,7 +113,6 @@ impl Visible {
         }
     }
 
-    /// Marks pixels along visible contours and borders.
     fn mark_contours(&mut self, scene: &Scene, projected: &[[f32; 3]]) {
         let faces_us = |triangle: usize| {
             let [a, b, c] = scene.corners(triangle, projected);
@@ -143,7 +136,6 @@ impl Visible {
         }
     }
 
-    /// Greatest depth of a pixel and its neighbours.
     fn farthest_around(&self, pixel: usize) -> f32 {
         let (x, y) = (pixel % self.width, pixel / self.width);
         let rows = y.saturating_sub(1)..(y + 2).min(self.height);
@@ -188,7 +180,6 @@ impl Visible {
         });
     }
 
-    /// Rasterises a triangle into the samples of supersampled pixels.
     fn refine(&mut self, triangle: u32, [a, b, c]: [[f32; 3]; 3]) {
         let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         if area == 0.0 {

@@ -6,7 +6,6 @@ use image::RgbaImage;
 
 use super::colour::{Encoder, Rgb};
 
-/// Structure of a cloth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Weave {
     /// Plain weave: one over, one under.
@@ -31,11 +30,9 @@ const LOOP_DIAMETERS: [f64; 2] = [4.0, 3.46];
 const LOOP_YARN_DIAMETERS: f64 = 16.66;
 
 impl Weave {
-    /// All structures.
     pub const ALL: [Self; 4] = [Self::Plain, Self::Twill, Self::Jersey, Self::Rib];
 
     /// Name in the command line.
-    #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Plain => "plain",
@@ -50,7 +47,6 @@ impl Weave {
     /// In a weave two yarns lie on each other, so each has half the thickness as its diameter. Their spacing follows
     /// from the weight of both sets of yarns [Peirce 1937], and is at least a diameter. In a knit the loops are as
     /// close as the yarns allow, so their size follows from the weight alone [Peirce 1947].
-    #[must_use]
     pub fn repeat_m(self, density_kg_m2: f64, thickness_m: f64) -> [f64; 2] {
         let yarn_kg_m = |diameter: f64| YARN_DENSITY * std::f64::consts::PI * diameter * diameter / 4.0;
         match self {
@@ -80,9 +76,7 @@ impl Weave {
         }
     }
 
-    /// Draws one repeat, with `v` (up in the picture) along the grain. Its mean brightness is that of the yarns'
-    /// colours.
-    #[must_use]
+    /// Draws one repeat, `v` (up) along the grain. Its mean brightness is that of the yarns' colours.
     pub fn picture(self, warp: Rgb, weft: Rgb) -> RgbaImage {
         let (width, height) = match self {
             Self::Plain | Self::Twill => (self.yarns() * YARN, self.yarns() * YARN),
@@ -131,7 +125,6 @@ impl Weave {
         (usize::from(!above), (0.25 + 0.75 * round) * (0.35 + 0.65 * arched))
     }
 
-    /// Share of light that a knit reflects at a point of the repeat.
     fn knitted(self, u: f32, v: f32) -> f32 {
         let columns = self.yarns() as f32;
         let x = u * columns;
@@ -148,8 +141,7 @@ impl Weave {
     }
 }
 
-/// Light from the legs of a loop that reaches from height 0 to 1.5 rows. The legs part as they rise, and dip at both
-/// ends.
+/// Light from the legs of a loop from height 0 to 1.5 rows, which part as they rise and dip at both ends.
 fn leg(x: f32, t: f32) -> f32 {
     let middle = 0.06 + 0.26 * (PI / 2.0 * (t / 1.2).min(1.0)).sin();
     let off = (x.abs() - middle) / 0.17;

@@ -4,33 +4,27 @@ use std::fmt::Write;
 
 /// Size of the drawing, which is stretched over the picture.
 const SIZE: [f64; 2] = [480.0, 540.0];
-/// Radius of a circle.
 const RADIUS: f64 = 17.0;
 /// Least distance between the middles of two circles of a margin.
 const APART: f64 = 2.0 * RADIUS + 5.0;
 /// Distance from the middle of the picture, as a share of its width, within which a place lies on neither side.
 const MIDDLE: f64 = 0.05;
 
-/// Callout on a place of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Callout {
-    /// Number in the circle.
     pub number: i64,
-    /// Place, as shares of the picture's width from the left and of its height from the top.
+    /// Shares of the picture's width from the left and of its height from the top.
     pub at: [f64; 2],
 }
 
-/// Callout with the place of its circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Placed {
     number: i64,
-    /// Place that it is about.
     at: [f64; 2],
-    /// Middle of the circle.
     circle: [f64; 2],
 }
 
-/// SVG of callouts, to lie over a picture; empty without a callout.
+/// SVG to lie over a picture; empty without a callout.
 pub(super) fn overlay(callouts: &[Callout]) -> String {
     if callouts.is_empty() {
         return String::new();

@@ -7,10 +7,8 @@ use super::data::ReportData;
 use super::text::{fit_glyph, number, signed};
 use fit::{Analysis, Pair, crossover, rule_score};
 
-/// Data of the section.
 pub(super) struct EvidencePart {
     pub statistics: Vec<Statistic>,
-    /// Chart of means with intervals, for every answer and garment.
     pub differences: Option<Chart>,
     pub crossovers: Vec<Crossing>,
     /// Charts, one for each garment, of the difference with each measurement left out in turn.
@@ -44,7 +42,7 @@ pub(super) struct ToldApart {
 }
 
 impl EvidencePart {
-    /// Makes the section of a study; `None` without a case that both simulators draped.
+    /// `None` without a case that both simulators draped.
     pub fn new(data: &ReportData) -> Result<Option<Self>, ReportError> {
         let Some(evidence) = data.evidence.as_ref().filter(|_| !data.pairs.is_empty()) else { return Ok(None) };
         let of_answers = evidence.answers.iter().filter(|answer| answer.analysis.cases > 0).map(|answer| {
@@ -80,7 +78,7 @@ impl EvidencePart {
         }))
     }
 
-    /// Returns all charts of the section, in the order of the page.
+    /// Follows the order of the page.
     pub fn charts(&mut self) -> impl Iterator<Item = &mut Chart> {
         self.differences.iter_mut().chain(self.crossovers.iter_mut().map(|c| &mut c.chart)).chain(&mut self.without)
     }
@@ -110,7 +108,6 @@ fn cells(analysis: &Analysis, p_holm: Option<f64>, regret: String) -> Vec<String
     ]
 }
 
-/// Chart with a row for every answer and every garment.
 fn differences(data: &ReportData) -> Result<Option<Chart>, ReportError> {
     let Some(evidence) = &data.evidence else { return Ok(None) };
     let row = |label: String, analysis: &Analysis| {
@@ -148,7 +145,6 @@ fn crossings(data: &ReportData) -> Result<Vec<Crossing>, ReportError> {
     Ok(all)
 }
 
-/// Chart of a garment's difference with each measurement left out in turn.
 fn without_chart(name: &str, analysis: &Analysis) -> Result<Option<Chart>, ReportError> {
     let row =
         |rest: &fit::Without| Difference { label: format!("without {}", rest.what), mean: rest.mean, interval: None };

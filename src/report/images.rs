@@ -6,9 +6,8 @@ use super::ReportError;
 use super::data::{FieldMap, Picture};
 use super::text::number;
 
-/// A picture embedded in the page.
 pub(super) struct Image {
-    /// Address of the picture: a data URL.
+    /// Data URL.
     pub address: String,
     /// Full-size file beside the page; empty without one.
     pub file: String,
@@ -17,7 +16,6 @@ pub(super) struct Image {
 }
 
 impl Image {
-    /// Embeds a picture.
     pub fn new(picture: &Picture) -> Result<Self, ReportError> {
         let kind = match picture.bytes.as_slice() {
             [0x89, b'P', b'N', b'G', ..] => "image/png",
@@ -33,7 +31,6 @@ impl Image {
     }
 }
 
-/// A picture of a scalar field, with its legend.
 pub(super) struct MapImage {
     pub image: Image,
     pub label: String,
@@ -45,7 +42,6 @@ pub(super) struct MapImage {
 }
 
 impl MapImage {
-    /// Embeds a map.
     pub fn new(map: &FieldMap) -> Result<Self, ReportError> {
         let scale = &map.scale;
         let decimals = if scale.high - scale.low >= 10.0 { 0 } else { 2 };
@@ -63,7 +59,7 @@ impl MapImage {
     }
 }
 
-/// Data URL of bytes of a media type.
+/// Data URL; `kind` is the media type.
 pub(super) fn address(kind: &str, bytes: &[u8]) -> String {
     format!("data:{kind};base64,{}", base64::engine::general_purpose::STANDARD.encode(bytes))
 }

@@ -26,25 +26,18 @@ pub use names::{FileNames, file_part};
 
 use askama::Template;
 
-/// Reason why a report could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
-    /// A chart could not be drawn.
     #[error("chart: {0}")]
     Chart(String),
-    /// A picture could not be made.
     #[error("picture: {0}")]
     Picture(#[from] render::RenderError),
-    /// The page's template could not be filled in.
     #[error("page: {0}")]
     Page(#[from] askama::Error),
-    /// The drapes could not be written.
     #[error("drapes: {0}")]
     Drapes(#[from] serde_json::Error),
-    /// A picture is neither PNG nor JPEG.
     #[error("picture \"{0}\" is neither PNG nor JPEG")]
     PictureFormat(String),
-    /// A link leads outside the report.
     #[error("link \"{0}\" must be an address relative to the report, like chi.csv")]
     Link(String),
 }
@@ -52,25 +45,18 @@ pub enum ReportError {
 /// Purpose of a report, which decides its first page; the page for the other purpose lies beside it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// Fit of the garments.
     Fit,
     /// Comparison of the simulators: agreement of their drapes with the pattern.
     Compare,
 }
 
 /// Makes the page that compares the simulators.
-///
-/// # Errors
-/// A link that is not relative, a picture that is neither PNG nor JPEG, or a chart that cannot be drawn.
 pub fn html(data: &ReportData) -> Result<String, ReportError> {
     Ok(page(data, None, &mut FileNames::default())?.render()?)
 }
 
 /// Makes the files of a report, by their relative paths: `index.html` for its purpose, the other page where garments
 /// are fitted, and charts as SVG and PNG.
-///
-/// # Errors
-/// As [`html`], and where a chart cannot be turned into pixels.
 pub fn files(data: &ReportData, purpose: Purpose) -> Result<Vec<(String, Vec<u8>)>, ReportError> {
     let [compare, fit] = match purpose {
         Purpose::Compare => ["index.html", "fit.html"],

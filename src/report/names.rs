@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 /// Greatest length of a part, bytes. File systems allow names of 255 bytes, and a part is combined with words and an
 /// extension.
 const MOST_BYTES: usize = 160;
-/// Replacement for a name without letters and digits.
 const NAMELESS: &str = "unnamed";
 /// Device names: on Windows, no file may have one before its first dot.
 const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];
@@ -15,7 +14,6 @@ const NUMBERED: [&str; 2] = ["com", "lpt"];
 /// Converts a name to a part of a file name. Letters and digits of any script, `_`, `.`, `+` and `=` stay; anything
 /// else between them becomes one `-`. The part is not empty, does not begin with a dot and is at most 160 bytes long.
 /// Different names may give the same part: [`FileNames`] makes them distinct.
-#[must_use]
 pub fn file_part(name: &str) -> String {
     let mut part = String::new();
     let mut is_gap = false;
@@ -47,7 +45,6 @@ fn stays(letter: char) -> bool {
     letter.is_alphanumeric() || "_.+=".contains(letter) || (is_mark && !letter.is_whitespace())
 }
 
-/// True if a name is that of a device on Windows.
 fn is_device(part: &str) -> bool {
     let stem = part.split('.').next().unwrap_or_default().to_lowercase();
     let is_numbered =

@@ -13,7 +13,6 @@ use super::text::{
 };
 use fit::{Basis, Ease, Finding, FitClass, Simulator, shown};
 
-/// Data of the template `report.html`.
 #[derive(askama::Template)]
 #[template(path = "report.html")]
 pub(super) struct Page<'a> {
@@ -38,19 +37,16 @@ pub(super) struct Page<'a> {
     fit: Option<&'a str>,
 }
 
-/// A key figure.
 struct Tile {
     value: String,
     name: String,
 }
 
-/// The recommendations for one garment.
 struct Garment {
     name: String,
     cards: Vec<Card>,
 }
 
-/// A recommendation of a simulator.
 struct Card {
     class: &'static str,
     glyph: &'static str,
@@ -67,13 +63,11 @@ struct Card {
     would_settle: String,
 }
 
-/// One finding of the audit.
 struct Note {
     severity: Severity,
     text: String,
 }
 
-/// A named row of formatted values.
 struct Row {
     name: String,
     note: String,
@@ -107,7 +101,7 @@ struct Fit {
 }
 
 impl<'a> Page<'a> {
-    /// Returns all charts, in the order of the page.
+    /// Follows the order of the page.
     pub fn charts(&mut self) -> impl Iterator<Item = &mut Chart> {
         let of_evidence = self.evidence.iter_mut().flat_map(EvidencePart::charts);
         let of_repeats = self.repeats.iter_mut().flat_map(|part| &mut part.charts);
@@ -115,7 +109,7 @@ impl<'a> Page<'a> {
         of_groups.chain(of_evidence).chain(&mut self.ease_chart).chain(&mut self.time_chart).chain(of_repeats)
     }
 
-    /// Makes the page from the data of a study. `fit` is the address of the fit report.
+    /// `fit` is the address of the fit report.
     pub fn new(data: &'a ReportData, fit: Option<&'a str>) -> Result<Self, ReportError> {
         let pictures = data.runs.iter().flat_map(|r| r.views.iter().chain(r.maps.iter().map(|m| &m.picture)));
         let links = data.raw.iter().map(|l| &l.href).chain(pictures.map(|p| &p.file));
@@ -160,7 +154,6 @@ fn mean_ei(runs: &[TryOn], simulator: Simulator) -> Option<f64> {
     mean.is_finite().then_some(mean)
 }
 
-/// Findings of the study in two or three sentences.
 fn summary(runs: &[TryOn]) -> String {
     let garments = distinct(runs.iter().map(|r| r.garment.as_str())).join(", ");
     let subjects = distinct(runs.iter().map(|r| r.subject.as_str())).len();
@@ -294,7 +287,7 @@ fn card(verdict: &Verdict) -> Card {
     }
 }
 
-/// Notes of the page: failed and unconverged runs first, then the study's own.
+/// Failed and unconverged runs first, then the study's own notes.
 fn audit(data: &ReportData) -> Vec<Note> {
     let of_run = |run: &TryOn| {
         let name = format!(

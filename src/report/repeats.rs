@@ -6,18 +6,17 @@ use super::data::TryOn;
 use super::spread::{Repeats, repeats};
 use super::text::{count, distinct, number, simulator_name};
 
-/// Data of the section.
 pub(super) struct RepeatPart {
     pub words: String,
     /// Name of a case, and its cells: simulator, number of repeats, greatest range of chi, measurement that has this
     /// range, least and greatest EI.
     pub rows: Vec<(String, Vec<String>)>,
-    /// One chart for each garment.
+    /// One for each garment.
     pub charts: Vec<Chart>,
 }
 
 impl RepeatPart {
-    /// Makes the section; `None` if no case was simulated twice.
+    /// `None` if no case was simulated twice.
     pub fn new(runs: &[TryOn]) -> Result<Option<Self>, ReportError> {
         let cases = repeats(runs);
         if cases.is_empty() {

@@ -19,13 +19,12 @@ pub(super) struct Group {
     pub heat: Heat,
     /// Mean chi of each series; `None` for a single series.
     pub side_by_side: Option<Heat>,
-    /// Charts of E, SD and EI, with the simulators side by side.
     pub metric_charts: Vec<Chart>,
     pub residual_chart: Option<Chart>,
 }
 
 impl Group {
-    /// Returns all charts of the group, in the order of the page.
+    /// Follows the order of the page.
     pub fn charts(&mut self) -> impl Iterator<Item = &mut Chart> {
         let of_series = self.series.iter_mut().flat_map(|s| [&mut s.chi_chart].into_iter().chain(&mut s.mean_chart));
         of_series.chain(&mut self.metric_charts).chain(&mut self.residual_chart)
@@ -39,7 +38,6 @@ pub(super) struct Strip {
     pub class: &'static str,
     pub fit: String,
     pub status: String,
-    /// Reason why there is no result.
     pub failure: Option<String>,
     pub images: Vec<Image>,
     pub maps: Vec<MapImage>,
@@ -64,7 +62,6 @@ impl Series {
     }
 }
 
-/// One measurement in all runs of a series.
 pub(super) struct ChiRow {
     pub no: u32,
     pub name: String,
@@ -77,7 +74,6 @@ pub(super) struct ChiRow {
     pub sd: String,
 }
 
-/// One measurement of one run.
 pub(super) struct ChiCell {
     pub l3d: String,
     pub chi: String,
@@ -86,7 +82,6 @@ pub(super) struct ChiCell {
     pub misprint: Option<String>,
 }
 
-/// Summary of one run: deviations from the pattern, and the course of the simulation.
 pub(super) struct MetricsRow {
     pub label: String,
     pub class: &'static str,
@@ -102,7 +97,6 @@ pub(super) struct Heat {
     pub rows: Vec<(String, Vec<Option<HeatCell>>)>,
 }
 
-/// A coloured cell.
 pub(super) struct HeatCell {
     pub chi: String,
     pub ground: String,
@@ -116,7 +110,7 @@ impl HeatCell {
     }
 }
 
-/// Groups runs by garment and size, in the order of their first appearance.
+/// Groups by garment and size, in the order of their first appearance.
 pub(super) fn groups(runs: &[TryOn]) -> Result<Vec<Group>, ReportError> {
     let fabrics = super::text::distinct(runs.iter().map(|r| r.fabric.as_str())).len();
     let mut keys: Vec<(&str, &str)> = Vec::new();
@@ -168,7 +162,7 @@ fn wearer(run: &TryOn) -> String {
     if run.repeat > 1 { format!("{}, repeat {}", run.subject, run.repeat) } else { run.subject.clone() }
 }
 
-/// Fit of a run: style class, and words.
+/// Style class, and words.
 fn fit(run: &TryOn) -> (&'static str, String) {
     run.ease.as_ref().map_or(("unknown", "fit unknown".into()), |e| {
         (e.class.as_str(), format!("{} {}, {} mm", fit_glyph(e.class), fit_words(e), signed_mm(e.ease_m())))
@@ -236,7 +230,7 @@ fn by_series<'a>(runs: &[&'a TryOn]) -> Vec<(String, Vec<&'a TryOn>)> {
     all
 }
 
-/// Mean chi of each measurement in each series; `None` for a single series.
+/// `None` for a single series.
 fn side_by_side(runs: &[&TryOn]) -> Option<Heat> {
     let all = by_series(runs);
     let mean = |members: &[&TryOn], no: u32| {

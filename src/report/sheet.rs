@@ -11,7 +11,6 @@ use super::text::{count, simulator_name};
 use super::viewer;
 use fit::Simulator;
 
-/// Data of the template `fit.html`.
 #[derive(askama::Template)]
 #[template(path = "fit.html")]
 pub(super) struct FitPage<'a> {
@@ -27,27 +26,24 @@ pub(super) struct FitPage<'a> {
     script_hash: String,
 }
 
-/// Sides from which a garment is shown, as the files of the pictures name them.
+/// Names are those of the picture files.
 const SIDES: [&str; 3] = ["front", "side", "back"];
 
-/// A garment on a subject.
 struct Sheet<'a> {
     id: String,
     sheet: &'a FitSheet,
-    /// Pictures, one column for each size that has a drape.
+    /// One for each size that has a drape.
     columns: Vec<Column>,
-    /// Charts of the cross sections, as SVG.
+    /// SVG of each chart.
     sections: Vec<String>,
     /// Source of the drape that is shown and measured, in words.
     source: String,
-    /// Pictures with the callouts of open comments.
     called: Vec<Called>,
 }
 
-/// Picture of a side with its callouts.
 struct Called {
     image: Image,
-    /// Callouts, as SVG.
+    /// SVG.
     callouts: String,
 }
 
@@ -62,7 +58,7 @@ struct Column {
 }
 
 impl<'a> FitPage<'a> {
-    /// Makes the page from the data of a study. `other` is the address of the comparison.
+    /// `other` is the address of the comparison.
     pub fn new(data: &'a ReportData, other: &'a str) -> Result<Self, ReportError> {
         let sheets = data.fit.sheets.iter().enumerate().map(|(number, sheet)| Sheet::new(number, sheet, data));
         let drawing = |drawing: &super::data::Drawing| {
@@ -175,7 +171,6 @@ impl Column {
 }
 
 impl FitVerdict {
-    /// Style class of a cell.
     fn class(self) -> &'static str {
         match self {
             Self::Tight => "tight",
@@ -184,7 +179,6 @@ impl FitVerdict {
         }
     }
 
-    /// Symbol before the words of a cell.
     fn glyph(self) -> &'static str {
         match self {
             Self::Tight => "\u{25bc}",

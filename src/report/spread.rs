@@ -23,13 +23,12 @@ pub(super) struct Spread {
 }
 
 impl Repeats {
-    /// Measurement with the widest spread.
     pub fn widest(&self) -> Option<&Spread> {
         self.spreads.iter().max_by(|a, b| a.chi.total_cmp(&b.chi))
     }
 }
 
-/// Identity of a case: garment, place (size, subject and fabric) and simulator.
+/// Garment, place (size, subject and fabric) and simulator.
 #[derive(PartialEq)]
 struct Case {
     garment: String,
@@ -37,7 +36,7 @@ struct Case {
     simulator: Simulator,
 }
 
-/// Finds the cases with two results or more, in the order of their first appearance.
+/// Cases with two results or more, in the order of their first appearance.
 pub(super) fn repeats(runs: &[TryOn]) -> Vec<Repeats> {
     let case_of = |run: &TryOn| Case {
         garment: run.case.clone(),
@@ -55,7 +54,6 @@ pub(super) fn repeats(runs: &[TryOn]) -> Vec<Repeats> {
     cases.into_iter().filter(|(_, same)| same.len() > 1).map(|(case, same)| repeats_of(case, &same)).collect()
 }
 
-/// Ranges of the repeats of one case.
 fn repeats_of(Case { garment, place, simulator }: Case, runs: &[&TryOn]) -> Repeats {
     let range = |values: &mut dyn Iterator<Item = f64>| {
         values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])

@@ -95,7 +95,6 @@ fn sample() -> ReportData {
     }
 }
 
-/// Text of a page without pictures and style, one block to a line.
 fn words(page: &str) -> String {
     let body = page.split_once("<body>").unwrap().1;
     let mut text = String::new();

@@ -2,12 +2,11 @@
 
 use fit::{Ease, Finding, FitClass, Simulator};
 
-/// Escapes the special characters of HTML and SVG.
 pub(super) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// Formats metres as millimetres with one decimal.
+/// One decimal.
 pub(super) fn mm(metres: f64) -> String {
     number(metres * 1e3, 1)
 }
@@ -26,19 +25,16 @@ pub(super) fn number(value: f64, decimals: usize) -> String {
     }
 }
 
-/// Formats metres as millimetres with a sign.
 pub(super) fn signed_mm(metres: f64) -> String {
     signed(metres * 1e3, 1)
 }
 
-/// Formats a number with its sign.
 pub(super) fn signed(value: f64, decimals: usize) -> String {
     let text = number(value, decimals);
     let is_nought = !text.bytes().any(|b| (b'1'..=b'9').contains(&b));
     if value > 0.0 && !is_nought { format!("+{text}") } else { text }
 }
 
-/// Formats seconds in a suitable unit.
 pub(super) fn duration(seconds: f64) -> String {
     if seconds < 1.0 {
         format!("{:.0} ms", seconds * 1e3)
@@ -49,7 +45,6 @@ pub(super) fn duration(seconds: f64) -> String {
     }
 }
 
-/// Name of a simulator in headings.
 pub(super) fn simulator_name(simulator: Simulator) -> &'static str {
     match simulator {
         Simulator::Fem => "FEM-GS",
@@ -57,7 +52,6 @@ pub(super) fn simulator_name(simulator: Simulator) -> &'static str {
     }
 }
 
-/// Finding in words.
 pub(super) fn finding_words(finding: Finding) -> &'static str {
     match finding {
         Finding::Fem => "FEM-GS is truer",
@@ -76,7 +70,6 @@ pub(super) fn fit_glyph(class: FitClass) -> &'static str {
     }
 }
 
-/// Fit in words: its class with a qualification.
 pub(super) fn fit_words(ease: &Ease) -> String {
     let mark = match (ease.is_undersized(), ease.borderline) {
         (true, _) => ", undersized",
@@ -91,7 +84,7 @@ pub(super) fn count(n: usize, word: &str) -> String {
     if n == 1 { format!("1 {word}") } else { format!("{n} {word}s") }
 }
 
-/// Distinct names, in the order of their first appearance.
+/// Order is that of their first appearance.
 pub(super) fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     let mut seen = Vec::new();
     for name in names {

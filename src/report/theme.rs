@@ -6,13 +6,10 @@ use render::{ColourMap, Rgb};
 
 /// Text and axes.
 pub(super) const INK: Rgb = Rgb(0x1b, 0x24, 0x30);
-/// Secondary text.
 pub(super) const MUTED: Rgb = Rgb(0x56, 0x61, 0x6f);
-/// Colour of grid lines.
 pub(super) const GRID: Rgb = Rgb(0xd9, 0xde, 0xe4);
 /// Background of every second row.
 pub(super) const BAND: Rgb = Rgb(0xf3, 0xf5, 0xf8);
-/// Background of charts.
 pub(super) const PAPER: Rgb = Rgb(0xff, 0xff, 0xff);
 
 /// Neutral colours with the style variables that replace them on the page.
@@ -78,7 +75,6 @@ mod tests {
         }
     }
 
-    /// Colours of both schemes, read from the style sheet.
     #[test]
     fn style_sheet_schemes_read() {
         let css = include_str!("templates/report/style.css");

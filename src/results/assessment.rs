@@ -6,32 +6,28 @@ use crate::fit_card::{FitCard, fit_cards};
 use fit::Simulator;
 use store::{JobId, Result, Store};
 
-/// Difference between the heights of a hem below which it counts as level, mm: nobody sees less on a moving person.
+/// Difference between the heights of a hem below which it counts as level: nobody sees less on a moving person.
 const LEVEL_MM: f64 = 5.0;
 
-/// A number of a garment's balance.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Balance {
-    /// Name of the quantity, such as `hem_front`.
+    /// Such as `hem_front`.
     pub quantity: String,
-    /// Value of the quantity, in `unit`.
     pub value: f64,
     /// `mm` or `deg`.
     pub unit: String,
 }
 
-/// Pressure on a region of the body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RegionPressure {
-    /// Name of the region, such as `lower_legs`.
+    /// Such as `lower_legs`.
     pub region: String,
-    /// Area under pressure, cm2.
+    /// Area under pressure.
     pub area_cm2: f64,
-    /// Mean pressure on that area, kPa.
     pub mean_kpa: f64,
-    /// Pressure that 1 % of the area exceeds, kPa.
+    /// Pressure that 1 % of the area exceeds.
     pub most_kpa: f64,
-    /// Pressure that 1 % of the area exceeds, mmHg.
+    /// Pressure that 1 % of the area exceeds.
     pub most_mmhg: f64,
 }
 
@@ -40,83 +36,65 @@ pub struct RegionPressure {
 pub struct FoldLine {
     /// `fold` or `drag_line`.
     pub kind: String,
-    /// Length along the fold, mm.
     pub length_mm: f64,
-    /// Angle from the vertical, degrees.
     pub from_vertical_deg: f64,
-    /// Height of the fold's middle above the floor, mm.
+    /// Height of the fold's middle above the floor.
     pub height_mm: f64,
-    /// Direction of the fold's middle, degrees from the front towards the subject's right.
+    /// Direction of the fold's middle from the front towards the subject's right.
     pub side_deg: f64,
 }
 
-/// A point of measure, flat and draped.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WornPoint {
-    /// Name of the point of measure.
     pub point: String,
-    /// Length flat on the pieces, mm.
     pub flat_mm: f64,
-    /// Grade step: flat length minus that of the size before, mm; `None` for the first size.
+    /// Flat length minus that of the size before; `None` for the first size.
     pub step_mm: Option<f64>,
-    /// Length on the drape, mm; `None` where it runs across no cloth.
+    /// `None` where it runs across no cloth.
     pub draped_mm: Option<f64>,
 }
 
-/// Gap between body and cloth at a level, mm.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LevelGap {
-    /// Level of the body, such as `waist`.
     pub level: String,
-    /// Least gap, below 0 where cloth lies inside the body; `None` where no direction has cloth.
+    /// Below 0 where cloth lies inside the body; `None` where no direction has cloth.
     pub least_gap_mm: Option<f64>,
-    /// Mean over the directions with cloth; `None` where no direction has any.
+    /// Mean over the directions with cloth.
     pub mean_gap_mm: Option<f64>,
-    /// Greatest gap over the directions with cloth; `None` where no direction has any.
     pub greatest_gap_mm: Option<f64>,
 }
 
-/// Displacement of an opening as the body moved, mm.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DrawnOpening {
     /// Name of the measurement along the opening.
     pub opening: String,
     /// Mean displacement along the opening; below 0 away from the garment.
     pub drawn_mm: f64,
-    /// Greatest displacement along the opening.
     pub drawn_most_mm: f64,
 }
 
-/// Measurements of the drape of one size.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SizeWorn {
-    /// Name of the size, such as `M`.
     pub size: String,
-    /// Job whose drape is measured.
     pub job: JobId,
-    /// Gaps at the levels of the body, mm.
     pub gaps: Vec<LevelGap>,
-    /// Balance: heights of hem and waist edge, lean of the side seams.
+    /// Heights of hem and waist edge, lean of the side seams.
     pub balance: Vec<Balance>,
-    /// Pressure by region; empty for Hybrid-GS.
+    /// Empty for Hybrid-GS.
     pub pressure: Vec<RegionPressure>,
-    /// Folds, the longest first.
+    /// Longest first.
     pub folds: Vec<FoldLine>,
-    /// Points of measure.
     pub points: Vec<WornPoint>,
-    /// Displaced openings; empty unless the body moved with the garment on.
+    /// Empty unless the body moved with the garment on.
     pub drawn: Vec<DrawnOpening>,
 }
 
 impl SizeWorn {
-    /// Value of a number of the balance, by name.
-    #[must_use]
     pub fn balance_of(&self, quantity: &str) -> Option<f64> {
         self.balance.iter().find(|known| known.quantity == quantity).map(|known| known.value)
     }
 
-    /// Height of the hem in front minus its height behind, mm, with a description; `None` where it is not measured.
-    #[must_use]
+    /// Height of the hem in front minus its height behind, mm, with a description.
     pub fn hem_tilt(&self) -> Option<(f64, &'static str)> {
         let off = self.balance_of("hem_front_over_back")?;
         let words = match off {
@@ -127,8 +105,6 @@ impl SizeWorn {
         Some((off, words))
     }
 
-    /// Description of the hem; `None` where it is not measured.
-    #[must_use]
     pub fn hem_words(&self) -> Option<String> {
         let ((off, words), front) = (self.hem_tilt()?, self.balance_of("hem_front")?);
         let tilt =
@@ -138,8 +114,6 @@ impl SizeWorn {
 }
 
 impl FoldLine {
-    /// Description of the fold's direction and side.
-    #[must_use]
     pub fn words(&self) -> String {
         let way = match self.from_vertical_deg {
             a if a < 25.0 => "upright",
@@ -164,19 +138,14 @@ impl FoldLine {
 /// Fit of a garment on a subject, by ease and on drapes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GarmentWorn {
-    /// Fit card: the size to wear, and the ease of all sizes.
     pub card: FitCard,
-    /// Simulator whose drapes are measured: FEM-GS, or Hybrid-GS where only that has drapes; `None` without drapes.
+    /// FEM-GS, or Hybrid-GS where only that has drapes; `None` without drapes.
     pub simulator: Option<Simulator>,
     /// Sizes that have a drape, in order.
     pub sizes: Vec<SizeWorn>,
 }
 
-/// Fit of the garments of a study on its subjects: fit cards, and measurements of the drapes. `garment` and `subject`
-/// select one of each.
-///
-/// # Errors
-/// [`StudyError::NotFound`](store::StudyError::NotFound) when the study has no ease of that garment or subject.
+/// Fit cards of a study, with measurements of the drapes. `garment` and `subject` select one of each.
 pub fn worn(store: &Store, study: &str, garment: Option<&str>, subject: Option<&str>) -> Result<Vec<GarmentWorn>> {
     let cards = fit_cards(store, study, garment, subject)?.into_iter();
     cards.map(|card| garment_worn(store, study, card)).collect()
@@ -193,10 +162,6 @@ fn garment_worn(store: &Store, study: &str, card: FitCard) -> Result<GarmentWorn
     Ok(GarmentWorn { card, simulator: None, sizes: Vec::new() })
 }
 
-/// Sizes of a card that a simulator has draped, in order, with their jobs.
-///
-/// # Errors
-/// When the database cannot be read.
 pub fn drapes(store: &Store, study: &str, card: &FitCard, simulator: Simulator) -> Result<Vec<(String, JobId)>> {
     let mut found = Vec::new();
     for size in &card.sizes {
@@ -206,7 +171,7 @@ pub fn drapes(store: &Store, study: &str, card: &FitCard, simulator: Simulator) 
     Ok(found)
 }
 
-/// Current result of a size, of the first repeat.
+/// Current result of the first repeat.
 fn drape_of(store: &Store, study: &str, card: &FitCard, size: &str, simulator: Simulator) -> Result<Option<JobId>> {
     let sql =
         "SELECT job_id FROM v_metrics WHERE study = ? AND garment = ? AND subject = ? AND size = ? AND simulator = ?
@@ -265,7 +230,6 @@ fn size_worn(store: &Store, size: String, job: JobId) -> Result<SizeWorn> {
     })
 }
 
-/// Reads the rows of a query about a job.
 fn rows<T>(
     store: &Store,
     sql: &str,

@@ -13,14 +13,12 @@ use report::Chart;
 use report::chart::{Worn, section_chart};
 use store::{InOrigin, JobId, JobRow, Origin, Result, StageKind, Store, StudyError, read};
 
-/// Planes in which to cut a body.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CutAt {
     /// At all levels that the garment covers.
     Levels,
-    /// At one level, by name.
     Level(String),
-    /// At a height above the floor, mm; below the crotch the right leg is cut.
+    /// Height above the floor; below the crotch the right leg is cut.
     HeightMm(f64),
 }
 
@@ -28,22 +26,17 @@ pub enum CutAt {
 /// front.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CutLine {
-    /// Points of the line, mm; a closed line does not repeat the first.
+    /// Points in mm; a closed line does not repeat the first.
     pub points: Vec<[f64; 2]>,
-    /// True if the last point is connected to the first.
     pub closed: bool,
 }
 
-/// Cloth of one result in a section.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CutCloth {
-    /// Number of the job whose drape is cut.
     pub job: i64,
-    /// Name of the size, such as `M`.
     pub size: String,
     /// `fem` or `hybrid`.
     pub simulator: String,
-    /// Outlines of the cloth in the plane.
     pub lines: Vec<CutLine>,
     /// Directions, degrees from the front towards the subject's right, with the gap from the skin, mm: below 0 inside
     /// the body, `None` without cloth.
@@ -51,8 +44,7 @@ pub struct CutCloth {
 }
 
 impl CutCloth {
-    /// Least, mean and greatest gap, mm; `None` where no direction has cloth.
-    #[must_use]
+    /// Least, mean and greatest gap; `None` where no direction has cloth.
     pub fn gap_mm(&self) -> Option<[f64; 3]> {
         let known: Vec<f64> = self.gaps.iter().filter_map(|(_, gap)| *gap).collect();
         let mean = known.iter().sum::<f64>() / known.len() as f64;
@@ -62,36 +54,25 @@ impl CutCloth {
     }
 }
 
-/// Section of a body, with the cloth of one or more results.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CrossSection {
     /// Level, or height in words.
     pub level: String,
-    /// Height above the floor, mm.
+    /// Height above the floor.
     pub height_mm: f64,
     /// Middle of the outline of trunk or limb, from which directions are counted, mm.
     pub centre: [f64; 2],
-    /// Outline of trunk or limb.
     pub skin: CutLine,
-    /// The other limbs in the plane.
     pub others: Vec<CutLine>,
-    /// Cloth of each result.
     pub cloth: Vec<CutCloth>,
 }
 
-/// Sections of several results at a level of one body.
 pub(crate) struct LevelCuts {
-    /// Level, or height in words.
     pub level: String,
-    /// Each result and its section.
     pub cuts: Vec<(JobRow, Section)>,
 }
 
 /// Cuts results on one body. Leaves out levels that none of them covers.
-///
-/// # Errors
-/// [`StudyError::NotFound`] for a job without a result, or a level that bodies do not have. [`StudyError::Refused`] for
-/// a height at which there is no body, or results on different bodies.
 pub(crate) fn cuts(store: &Store, jobs: &[JobId], at: &CutAt) -> Result<Vec<LevelCuts>> {
     let Some(first) = jobs.first() else { return Ok(Vec::new()) };
     let subject = read::job(store, *first)?.subject;
@@ -125,20 +106,11 @@ pub(crate) fn cuts(store: &Store, jobs: &[JobId], at: &CutAt) -> Result<Vec<Leve
     Ok(found)
 }
 
-/// Returns the sections of results as plain values.
-///
-/// # Errors
-/// [`StudyError::NotFound`] for a job without a result, or a level that bodies do not have; [`StudyError::Refused`] for
-/// a height at which there is no body, or results on different bodies.
 pub fn sections(store: &Store, jobs: &[JobId], at: &CutAt) -> Result<Vec<CrossSection>> {
     Ok(cuts(store, jobs, at)?.iter().filter_map(plain).collect())
 }
 
-/// Draws the sections of results, a chart for each level. The gaps of the size `written` are written beside the
-/// section.
-///
-/// # Errors
-/// As [`sections`], and when a chart cannot be drawn.
+/// Draws a chart for each level, with the gaps of the size `written` beside the section.
 pub fn drawn(store: &Store, jobs: &[JobId], at: &CutAt, written: Option<&str>) -> Result<Vec<(String, Chart)>> {
     let cuts = cuts(store, jobs, at)?;
     let chart = |level: &LevelCuts| {
@@ -185,7 +157,6 @@ impl CutAt {
     }
 }
 
-/// Places of the planes on the body.
 fn wanted(body: &Body, at: &CutAt) -> Result<Vec<Site>> {
     match at {
         CutAt::Levels => Ok(sites(body)),

@@ -8,19 +8,14 @@ use geom::units::mm;
 use spec::{bodies, patterns};
 use store::{Result, Store, Value, files, sql};
 
-/// One check and its result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Check {
-    /// Name of the part that was checked.
     pub name: &'static str,
-    /// True if the part works.
     pub passed: bool,
-    /// Result in words, or the error.
     pub found: String,
 }
 
-/// Runs all checks: the machine, the database, and each stage on a small case.
-#[must_use]
+/// Checks the machine, the database, and each stage on a small case.
 pub fn checks(database: &Path, readonly: bool) -> Vec<Check> {
     let check = |name, found: Result<String>| match found {
         Ok(found) => Check { name, passed: true, found },
@@ -34,7 +29,7 @@ pub fn checks(database: &Path, readonly: bool) -> Vec<Check> {
     ]
 }
 
-/// Opens the database and runs SQLite's own check.
+/// Runs SQLite's own check.
 fn database_check(path: &Path, readonly: bool) -> Result<String> {
     let store = Store::open(path, readonly)?;
     let table = sql::query(&store, "PRAGMA quick_check")?;
@@ -44,7 +39,6 @@ fn database_check(path: &Path, readonly: bool) -> Result<String> {
     Ok(format!("{}: {}, {count} jobs", path.display(), said.join("; ")))
 }
 
-/// Builds a body and measures it.
 fn body_check() -> Result<String> {
     let known = Measurements::of(Sex::Female, 1.65).with(Dimension::Weight, 60.0).with(Dimension::ChestGirth, 0.9);
     let body = bodies::build_body(&known)?;
@@ -55,7 +49,6 @@ fn body_check() -> Result<String> {
     ))
 }
 
-/// Drafts, writes, reads, sews and meshes a T-shirt.
 fn pattern_check() -> Result<String> {
     let folder = std::env::temp_dir().join(format!("toile-doctor-{}", std::process::id()));
     let found = files::write_files(&folder, &patterns::drafted(patterns::Model::Tshirt)).and_then(|_| {

@@ -8,61 +8,39 @@ use fit::Simulator;
 use pattern::size_order;
 use store::{Result, Status, Store};
 
-/// Outcome of one job of a study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Dressed {
-    /// Name of the garment in the study.
     pub garment: String,
-    /// Name of the size.
     pub size: String,
-    /// Name of the subject.
     pub subject: String,
-    /// `fem` or `hybrid`.
     pub simulator: String,
-    /// State of the job.
     pub status: Status,
-    /// Faults of the drape; empty for a good drape.
     pub faults: Vec<String>,
-    /// Reason why there is no drape; `None` with a drape.
     pub refused: Option<String>,
-    /// Error indicator EI; `None` without a drape.
+    /// `None` without a drape.
     pub ei: Option<f64>,
-    /// Number of vertices of the mesh.
     pub vertices: Option<i64>,
-    /// Deepest penetration into the body, mm. For Hybrid-GS this is no fault: it lets a garment that is too small lie
+    /// Deepest penetration into the body. For Hybrid-GS this is no fault: it lets a garment that is too small lie
     /// inside.
     pub inside_mm: Option<f64>,
-    /// Greatest excess of a body girth over that of the garment, mm.
+    /// Greatest excess of a body girth over that of the garment.
     pub shortfall_mm: Option<f64>,
-    /// Time that the job took, ms.
     pub wall_ms: Option<i64>,
 }
 
-/// Counts of the outcomes for one simulator.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Tally {
-    /// `fem` or `hybrid`.
     pub simulator: String,
-    /// Number of jobs that ended.
     pub ended: usize,
-    /// Number of drapes without a fault.
     pub good: usize,
-    /// Number of drapes with a fault.
     pub faulty: usize,
-    /// Number of jobs without a drape.
     pub refused: usize,
-    /// Mean EI of all drapes; `None` without drapes.
     pub mean_ei: Option<f64>,
-    /// Median time of a job, s.
     pub median_s: Option<f64>,
-    /// Time of the slowest job, s.
     pub slowest_s: Option<f64>,
 }
 
-/// Outcomes of the current jobs of a study, sorted by names of garment and subject, then by size from the smallest.
-///
-/// # Errors
-/// When the database cannot be read.
+/// Outcomes of the current jobs, sorted by names of garment and subject, then by size from the smallest.
 pub fn dressed(store: &Store, study: &str) -> Result<Vec<Dressed>> {
     let sql = "SELECT job.garment, job.size, job.subject, job.simulator, job.status, job.error, job.wall_ms, m.ei,
             m.vertices, m.converged, m.residual, m.penetration_max_mm, m.self_crossings,
@@ -105,8 +83,6 @@ fn dressed_row(row: &Row<'_>) -> rusqlite::Result<Dressed> {
     })
 }
 
-/// Counts outcomes by simulator.
-#[must_use]
 pub fn tally(all: &[Dressed]) -> Vec<Tally> {
     let mut simulators: Vec<&str> = all.iter().map(|job| job.simulator.as_str()).collect();
     simulators.sort_unstable();

@@ -4,28 +4,21 @@ use std::path::PathBuf;
 
 use store::{JobId, Origin, StudyError};
 
-/// An error of a query on results.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum ResultsError {
-    /// A body without vertices, which cannot be drawn.
     #[error("the body has no vertices")]
     EmptyBody,
-    /// A file that is no image.
     #[error("{}: {reason}; accepted: PNG and JPEG", file.display())]
     NoImage { file: PathBuf, reason: image::ImageError },
-    /// A stored mesh whose number of vertices differs from that of the drape.
     #[error("the mesh of job {0} does not fit its drape")]
     OtherMesh(JobId),
     /// A job without an input that is needed to repeat it.
     #[error("job {0} has no mesh.edge_length_mm")]
     NoEdgeLength(JobId),
-    /// A job with unknown parameters.
     #[error("{0}")]
     Parameters(String),
-    /// A job on a scan that was not stored.
     #[error("its body is a scan, of which an older program kept nothing; run its study again")]
     ScanNotKept,
-    /// A layer of an outfit, which cannot be repeated by itself.
     #[error("it is a layer of an outfit, which is draped as a whole; run its study again")]
     Layer,
     /// A drape that was carried from another pose, which the job does not store.

@@ -12,19 +12,13 @@ use store::cache::{self, Cache};
 use store::{InOrigin, Origin, Result, StageKind, Store, SubjectId};
 use wardrobe::catalogue;
 
-/// Margin around a body in its picture, m.
 const MARGIN_M: f64 = 0.12;
 
-/// A subject's body, ready to be shown.
 pub struct Figure {
     model: Arc<Model>,
     scene: Scene,
 }
 
-/// Returns the body of a subject's revision.
-///
-/// # Errors
-/// When no revision has the number, or no body can be built from its measurements.
 pub fn figure(store: &Store, id: SubjectId) -> Result<Figure> {
     let (_, model) = model(store, id)?;
     let scene = Scene::new(vec![Layer::new(&model.body.mesh, Material::form())]);
@@ -32,11 +26,8 @@ pub fn figure(store: &Store, id: SubjectId) -> Result<Figure> {
     Ok(Figure { model, scene })
 }
 
-/// Returns name and body of a subject's revision. The body comes from the cache, or is built and then kept there,
-/// unless the database is open read-only.
-///
-/// # Errors
-/// When no revision has the number, or no body can be built from its measurements.
+/// Name and body of a subject's revision. The body comes from the cache, or is built and kept there, unless the
+/// database is open read-only.
 pub(crate) fn model(store: &Store, id: SubjectId) -> Result<(String, Arc<Model>)> {
     let (name, person) = (catalogue::subject_revision(store, id)?.name, catalogue::person(store, id)?);
     let hash = stages::body_inputs(&name, &person).stage_hash(StageKind::Body);
@@ -50,14 +41,11 @@ pub(crate) fn model(store: &Store, id: SubjectId) -> Result<(String, Arc<Model>)
 }
 
 impl Figure {
-    /// Girths that the tape measures on the body.
-    #[must_use]
     pub fn girths(&self) -> &Girths {
         &self.model.body.girths
     }
 
     /// Value on the body for a key of a subject: a tape measurement, or the mass from the volume.
-    #[must_use]
     pub fn reading(girths: &Girths, key: &str) -> Option<f64> {
         if key == Dimension::Weight.key() {
             return Some(Mass::of(girths.volume_l(), None).mass_from_volume_kg);
@@ -66,9 +54,6 @@ impl Figure {
     }
 
     /// Draws the body from the front and the side, side by side at one scale, on transparent ground.
-    ///
-    /// # Errors
-    /// When the picture is too small or too large.
     pub fn picture(&self, width: u32, height: u32) -> Result<RgbaImage> {
         let mesh = &self.model.body.mesh;
         let (low, high) = mesh.bounds().ok_or(ResultsError::EmptyBody)?;

@@ -7,50 +7,39 @@ use fit::target::is_within_reach;
 use geom::units::from_mm;
 use store::{Result, Store, StudyError};
 
-/// Ease of one size at one level, with its target.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LevelSits {
-    /// Level of the body, such as `chest`.
     pub level: String,
-    /// Length of the pattern there, mm.
     pub pattern_girth_mm: f64,
-    /// Length of the body there, mm.
     pub body_girth_mm: f64,
-    /// Ease: pattern length minus body length, mm.
+    /// Pattern length minus body length.
     pub ease_mm: f64,
-    /// Least and greatest target ease, mm; `None` where there is no target. The greatest is infinite where the garment
-    /// hangs free.
+    /// Least and greatest; `None` without a target. The greatest is infinite where the garment hangs free.
     pub target_mm: Option<[f64; 2]>,
-    /// Departure of the ease from its target, mm: below 0 if too tight. `None` without a target.
+    /// Departure of the ease from its target: below 0 if too tight. `None` without a target.
     pub off_mm: Option<f64>,
-    /// Weight of the departure, mm: double where too tight, a grade step more where the garment cannot be closed.
+    /// Weight of the departure: double where too tight, a grade step more where the garment cannot be closed.
     pub weight_mm: Option<f64>,
     /// True for a girth smaller than the body in a fabric that does not stretch.
     pub cannot_close: bool,
-    /// Angle round the body over which the drape covers the level, degrees; beyond it the hem hangs above the level.
-    /// `None` where the drape covers the level all round, or there is no drape.
+    /// Angle round the body over which the drape covers the level; beyond it the hem hangs above the level. `None` for
+    /// a whole turn, or without a drape.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub covered_deg: Option<f64>,
 }
 
-/// Least departure from a target that counts, mm: a smaller one would be written as 0.
+/// Least departure from a target that counts: a smaller one would be written as 0.
 const DEPARTURE_MM: f64 = 0.5;
 
-/// Position of an ease relative to its target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sits {
-    /// Below the target: too little ease.
     Tight,
-    /// Within the target.
     AsMeant,
-    /// Above the target: too much ease.
     Loose,
 }
 
 impl LevelSits {
-    /// Position of the ease relative to its target; `None` without a target, and where the drape does not cover the
-    /// level all round.
-    #[must_use]
+    /// `None` without a target, and where the drape does not cover the level all round.
     pub fn sits(&self) -> Option<Sits> {
         self.off_mm.filter(|_| self.covered_deg.is_none()).map(|off| match off {
             off if off <= -DEPARTURE_MM => Sits::Tight,
@@ -59,14 +48,11 @@ impl LevelSits {
         })
     }
 
-    /// Magnitude of the departure from the target, mm; 0 without a target.
-    #[must_use]
+    /// Magnitude; 0 without a target.
     pub fn departure_mm(&self) -> f64 {
         self.off_mm.map_or(0.0, f64::abs)
     }
 
-    /// Description of the ease relative to its target.
-    #[must_use]
     pub fn words(&self) -> String {
         let by_mm = self.departure_mm();
         if let Some(covered_deg) = self.covered_deg {
@@ -83,16 +69,14 @@ impl LevelSits {
     }
 }
 
-/// Ease of one size at all levels.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SizeSits {
-    /// Name of the size, such as `M`.
     pub size: String,
     /// Rank among the sizes: 1 is the size to wear, 2 the next best.
     pub place: Option<i64>,
-    /// Level with the greatest departure from its target, counting too tight double; `None` without a target.
+    /// Level with the greatest departure, counting too tight double; `None` without a target.
     pub worst_level: Option<String>,
-    /// Levels that the size covers, from the neck down.
+    /// Levels from the neck down.
     pub levels: Vec<LevelSits>,
 }
 
@@ -107,35 +91,29 @@ impl SizeSits {
         worst.map(|(_, weight_m)| weight_m)
     }
 
-    /// Worst level; `None` where no level has a target.
-    #[must_use]
+    /// `None` where no level has a target.
     pub fn worst(&self) -> Option<&LevelSits> {
         self.levels.iter().find(|level| self.worst_level.as_ref() == Some(&level.level))
     }
 
     /// True if the size may be worn: the departure of its worst level, counting too tight double, is at most a grade
     /// step. A size without targets may be worn.
-    #[must_use]
     pub fn is_within_reach(&self) -> bool {
         let weight_m = self.worst().and_then(|level| level.weight_mm).map(from_mm);
         weight_m.is_none_or(is_within_reach)
     }
 
-    /// Mark beside the size to wear: `wear`, or `nearest` where no size fits. `None` for all other sizes.
-    #[must_use]
+    /// `wear`, or `nearest` where no size fits; `None` for all but the size to wear.
     pub fn mark(&self) -> Option<&'static str> {
         let mark = if self.is_within_reach() { "wear" } else { "nearest" };
         (self.place == Some(1)).then_some(mark)
     }
 
-    /// True for trousers or a skirt whose hip was not found on the pattern.
     fn lacks_hip(&self) -> bool {
         let has = |level: &str| self.levels.iter().any(|known| known.level == level);
         has("waist") && !["hip", "chest", "bust"].into_iter().any(has)
     }
 
-    /// Description of the worst level.
-    #[must_use]
     pub fn words(&self) -> String {
         let worst = self.worst().filter(|level| level.sits().is_some_and(|sits| sits != Sits::AsMeant));
         let told = worst.map(|level| format!("{} {}", level.level.replace('_', " "), level.words()));
@@ -151,13 +129,10 @@ impl SizeSits {
 /// Fit of a garment on a subject in all sizes, by ease.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FitCard {
-    /// Name of the garment in the study.
     pub garment: String,
-    /// Name of the subject in the study.
     pub subject: String,
-    /// Intended fit, as the study file names it; `None` where it names none.
+    /// Name in the study file; `None` where it names none.
     pub intended: Option<String>,
-    /// Sizes, in order.
     pub sizes: Vec<SizeSits>,
 }
 
@@ -190,20 +165,17 @@ impl FitCard {
     }
 
     /// True if no girth of any size is known.
-    #[must_use]
     pub fn is_unknown(&self) -> bool {
         self.sizes.iter().all(|size| size.levels.is_empty())
     }
 
-    /// Size to wear; `None` where no level has a target.
-    #[must_use]
+    /// `None` where no level has a target.
     pub fn to_wear(&self) -> Option<&SizeSits> {
         self.sizes.iter().find(|size| size.place == Some(1))
     }
 
     /// Size to wear with its two neighbours, or the nearest two at an end of the range; all sizes where none is to
     /// wear.
-    #[must_use]
     pub fn beside(&self) -> &[SizeSits] {
         let last = self.sizes.len().saturating_sub(BESIDE);
         match self.sizes.iter().position(|size| size.place == Some(1)) {
@@ -215,8 +187,6 @@ impl FitCard {
         }
     }
 
-    /// Levels that any size covers, from the neck down.
-    #[must_use]
     pub fn levels(&self) -> Vec<&str> {
         let levels = self.sizes.iter().flat_map(|size| &size.levels);
         let mut found: Vec<&str> = levels.map(|level| level.level.as_str()).collect();
@@ -225,8 +195,6 @@ impl FitCard {
         found
     }
 
-    /// Sentence on the size to wear, or the nearest size where none fits, and its worst level.
-    #[must_use]
     pub fn verdict(&self) -> String {
         let told = |size: &SizeSits| match size.is_within_reach() {
             true => format!("wear {}: {}", size.size, size.words()),
@@ -236,8 +204,6 @@ impl FitCard {
         self.to_wear().map_or_else(|| none.to_owned(), told)
     }
 
-    /// Reasons for the size to wear: its worst level, and the worst level of each neighbour.
-    #[must_use]
     pub fn reasons(&self) -> String {
         let own = self.to_wear().map(|size| match size.is_within_reach() {
             true => size.words(),
@@ -249,9 +215,7 @@ impl FitCard {
     }
 }
 
-/// Verdict on a garment whose pieces show no girth.
 const NO_GIRTH: &str = "not known, no girth of its pattern was found";
-/// Words for a card on which no size may be worn.
 const NONE_FITS: &str = "no size fits";
 
 /// Number of sizes side by side on a card.
@@ -278,11 +242,7 @@ fn order(level: &str) -> usize {
     ORDER.iter().position(|known| *known == level).unwrap_or(ORDER.len())
 }
 
-/// Fit cards of a study: the ease of its garments on its subjects in all sizes, and the size to wear. `garment` and
-/// `subject` select one of each.
-///
-/// # Errors
-/// [`StudyError::NotFound`] when the study has no ease of that garment or subject.
+/// Ease of garments on subjects in all sizes, with the size to wear. `garment` and `subject` select one of each.
 pub fn fit_cards(store: &Store, study: &str, garment: Option<&str>, subject: Option<&str>) -> Result<Vec<FitCard>> {
     let cards = read_cards(store, study, garment, subject)?;
     if !cards.is_empty() {
@@ -295,8 +255,7 @@ pub fn fit_cards(store: &Store, study: &str, garment: Option<&str>, subject: Opt
     Ok(cards)
 }
 
-/// Fit cards of one garment or all on one subject or all, in the order of the study. A garment whose girths are not known
-/// has a card without levels once it has jobs.
+/// Cards in the order of the study. A garment whose girths are not known has a card without levels once it has jobs.
 fn read_cards(store: &Store, study: &str, garment: Option<&str>, subject: Option<&str>) -> Result<Vec<FitCard>> {
     let sql = "WITH fit AS (
             SELECT * FROM v_fit WHERE study = :study
@@ -344,18 +303,17 @@ fn read_cards(store: &Store, study: &str, garment: Option<&str>, subject: Option
     Ok(cards)
 }
 
-/// A level that the drape of a size does not cover all round.
 struct Bare {
     garment: String,
     subject: String,
     size: String,
     level: String,
-    /// Angle round the body over which there is no cloth, degrees.
+    /// Angle round the body over which there is no cloth.
     bare_deg: f64,
 }
 
-/// Greatest bare angle at which a level still counts as covered, degrees: one direction of a section may lie between
-/// two pieces of cloth.
+/// Greatest bare angle at which a level still counts as covered: one direction of a section may lie between two pieces
+/// of cloth.
 const LEAST_BARE_DEG: f64 = 15.0;
 
 /// Levels of a study that a drape does not cover all round. A direction of a section is bare if it has no cloth and the
@@ -388,7 +346,6 @@ fn bare(store: &Store, study: &str, garment: Option<&str>, subject: Option<&str>
     Ok(rows.collect::<rusqlite::Result<_>>()?)
 }
 
-/// Keeps the cards with a name, if one is given.
 fn keep(
     cards: &mut Vec<FitCard>,
     what: &'static str,
@@ -406,7 +363,6 @@ fn keep(
     Ok(())
 }
 
-/// A row of the view `v_fit`.
 struct Found {
     garment: String,
     subject: String,

@@ -53,18 +53,14 @@ const FREE: Rgb = Rgb(0xff, 0x20, 0x20);
 
 /// A body kept ready to be dressed again and again.
 pub struct Mannequin {
-    /// Name of the subject.
     pub name: String,
     model: Arc<Model>,
     field: DistanceField,
 }
 
 impl Mannequin {
-    /// Reads a file of measurements or a mesh. `unit` and `sex` are used where the file does not tell them. Returns
-    /// notes on guesses too.
-    ///
-    /// # Errors
-    /// When the file cannot be read, or no body can be made from it.
+    /// Reads measurements or a mesh. `unit` and `sex` are used where the file does not tell them. Returns notes on
+    /// guesses too.
     pub fn read(file: &Path, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<(Self, Vec<String>)> {
         let (body, notes) = read_body(file, unit, sex)?;
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -77,16 +73,11 @@ impl Mannequin {
     }
 }
 
-/// Returns the body of a subject's revision, ready to be dressed.
-///
-/// # Errors
-/// When no revision has the number, or no body can be built from its measurements.
 pub fn mannequin(store: &Store, id: SubjectId) -> Result<Mannequin> {
     let (name, model) = figure::model(store, id)?;
     Mannequin::new(name, model)
 }
 
-/// Accuracy of a preview.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Care {
     /// Coarse and not wholly at rest.
@@ -95,10 +86,8 @@ pub enum Care {
     Trial,
 }
 
-/// State in which a preview ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hung {
-    /// The garment is draped and nearly at rest.
     Draped,
     /// Sewing or draping failed; the garment is shown as it was then.
     Undone,
@@ -106,9 +95,7 @@ pub enum Hung {
     Not,
 }
 
-/// A garment draped on a body for a preview.
 pub struct Preview {
-    /// State in which the preview ended.
     pub hung: Hung,
     /// Reason why the drape is not complete, and remarks.
     pub remarks: Vec<String>,
@@ -117,11 +104,8 @@ pub struct Preview {
 }
 
 impl Mannequin {
-    /// Sews a size and drapes it on the body in a fabric. `is_stale` is called between steps; true ends the work.
-    ///
-    /// # Errors
-    /// When the files cannot be read or meshed; [`StudyError::Interrupted`] when it is stale. A garment that cannot be
-    /// draped is no error.
+    /// Sews a size and drapes it. `is_stale` is called between steps; true ends the work with
+    /// [`StudyError::Interrupted`]. A garment that cannot be draped is no error.
     pub fn dressed_in(
         &self,
         piece: &Workpiece,
@@ -160,10 +144,7 @@ impl Mannequin {
 }
 
 impl Preview {
-    /// Draws the garment from four sides, as a PNG file.
-    ///
-    /// # Errors
-    /// When the picture cannot be drawn.
+    /// PNG file with the garment from four sides.
     pub fn sheet(&self) -> Result<Vec<u8>> {
         let camera = |view: View| {
             let look = Look { azimuth_deg: view.azimuth_deg() as i32, zoom_pct: 100, rise_pct: 0 };
@@ -172,10 +153,7 @@ impl Preview {
         render::from_all_sides(&self.scene, camera, VIEW).origin(Origin::Render)
     }
 
-    /// Draws the garment from any side so that it fills the picture.
-    ///
-    /// # Errors
-    /// When the picture is too small or too large.
+    /// Garment from any side, so that it fills the picture.
     pub fn picture(&self, look: Look, width: u32, height: u32) -> Result<RgbaImage> {
         let camera = look.camera(&self.shown, width, height);
         render::cutout(&self.scene, &camera, width, height).origin(Origin::Render)
@@ -218,15 +196,12 @@ impl Monitor for Glance<'_> {
     }
 }
 
-/// Result of draping a garment for a preview.
 struct Hanging {
     hung: Hung,
-    /// Positions of the vertices, where any are known.
     positions: Option<Vec<V3>>,
     remarks: Vec<String>,
 }
 
-/// Drapes a garment on a body with this care.
 fn hang(meshes: &Meshes, on: &Mannequin, cloth: &Fabric, care: Care, is_stale: &dyn Fn() -> bool) -> Result<Hanging> {
     let garment = meshes.finest()?;
     let mut params = Params { distortion_limit: f64::MAX, ..Params::default() };
@@ -255,7 +230,6 @@ fn hang(meshes: &Meshes, on: &Mannequin, cloth: &Fabric, care: Care, is_stale: &
     }
 }
 
-/// Faults and EI of a trial's drape.
 fn told(garment: &Garment, drape: &Drape) -> Vec<String> {
     let crossings = i64::try_from(drape.self_crossings).unwrap_or(i64::MAX);
     let faults = drape_faults(drape.converged, drape.residual, mm(drape.penetration_max_m), crossings);

@@ -8,42 +8,30 @@ use store::{EaseRow, JobFilter, JobId, JobRow, PUBLISHED, RecommendationRow, Res
 /// All sizes of a garment on a subject, and the one to wear.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SizeAnswer {
-    /// Name of the garment in the study.
     pub garment: String,
-    /// Name of the subject in the study.
     pub subject: String,
-    /// Name of the size to wear.
     pub wear: String,
     /// Reason for this size and against the others.
     pub reason: String,
-    /// All sizes, in order of the study file.
+    /// Sizes in the order of the study file.
     pub sizes: Vec<SizeOn>,
 }
 
-/// One size on the subject.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SizeOn {
-    /// Name of the size, such as `M`.
     pub size: String,
-    /// Levels of the body at which the garment has a girth.
     pub levels: Vec<LevelFit>,
-    /// Picture that a customer should see.
     pub shown: &'static str,
 }
 
-/// A garment at one level of the body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LevelFit {
-    /// Ease of the size on the subject, with its fit class.
     pub ease: EaseRow,
-    /// Mean tension of the FEM-GS drape near that level, N/m; `None` without such a drape.
+    /// Mean tension of the FEM-GS drape near that level; `None` without such a drape.
     pub tension_n_m: Option<f64>,
 }
 
 /// Size that a subject should wear, for every garment of a study (or for `garment`) with a known ease on that subject.
-///
-/// # Errors
-/// [`StudyError::NotFound`] when the study has no such subject or garment. Others when the database cannot be read.
 pub fn size_advice(store: &Store, study: &str, subject: &str, garment: Option<&str>) -> Result<Vec<SizeAnswer>> {
     if study == PUBLISHED {
         let known = read::studies(store)?.into_iter().map(|study| study.name).collect();
@@ -74,7 +62,7 @@ pub fn size_advice(store: &Store, study: &str, subject: &str, garment: Option<&s
     Ok(answers)
 }
 
-/// Answer for one garment and subject from its eases; `None` without eases.
+/// `None` without eases.
 fn size_answer(
     store: &Store,
     eases: &[&EaseRow],

@@ -13,70 +13,54 @@ use store::cache::Cache;
 use store::{Access, ChiRow, JobId, JobRow, MetricsRow, Result, SizeKey, StageRow, Store, StudyError, SubjectId, read};
 use wardrobe::catalogue::{self, StyleFiles, read_fabric, read_style};
 
-/// Provenance of a result.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct ProvenanceRow {
-    /// Version of the program.
     pub program_version: String,
     /// Commit of the repository that holds the study file.
     pub git_commit: Option<String>,
     /// True if that repository had uncommitted changes.
     pub git_dirty: Option<bool>,
-    /// Name of the machine that ran the job.
     pub machine: String,
-    /// Seed of the job's start.
     pub seed: i64,
 }
 
-/// Everything stored about one job.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
-    /// The job as lists show it.
     pub job: JobRow,
-    /// Inputs of the job.
     pub inputs: Inputs,
-    /// Products of the stages that the job used.
     pub stages: Vec<StageRow>,
-    /// Provenance; `None` without a result.
+    /// `None` without a result.
     pub provenance: Option<ProvenanceRow>,
-    /// Metrics; `None` without a result.
     pub metrics: Option<MetricsRow>,
-    /// Measurements of the result, at every stage; empty without a result.
+    /// Measurements at every stage; empty without a result.
     pub chi: Vec<ChiRow>,
 }
 
-/// A measurement in two results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChiPair {
-    /// Number of the measurement in the style (`#1`).
+    /// Number in the style (`#1`).
     pub no: u32,
-    /// Name of the measurement in the style.
     pub name: String,
-    /// Pattern length and draped length in each result, m; `None` where a result lacks the measurement.
+    /// Pattern length and draped length in each result; `None` where a result lacks the measurement.
     pub lengths_m: [Option<(f64, f64)>; 2],
 }
 
 impl ChiPair {
-    /// Chi in each result: L3D / L2D.
-    #[must_use]
+    /// L3D / L2D in each result.
     pub fn chi(&self) -> [Option<f64>; 2] {
         self.lengths_m.map(|lengths| lengths.map(|(l2d, l3d)| l3d / l2d))
     }
 
     /// True if both results have the measurement, with lengths that are equal bit by bit.
-    #[must_use]
     pub fn is_same(&self) -> bool {
         let bits = |lengths: Option<(f64, f64)>| lengths.map(|(l2d, l3d)| [l2d.to_bits(), l3d.to_bits()]);
         self.lengths_m[0].is_some() && bits(self.lengths_m[0]) == bits(self.lengths_m[1])
     }
 }
 
-/// Two jobs side by side.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// Inputs that differ, with both values.
     pub inputs: Vec<Change>,
-    /// Metrics of both; `None` without a result.
     pub metrics: [Option<MetricsRow>; 2],
     /// Measurements of both, by number.
     pub chi: Vec<ChiPair>,
@@ -87,16 +71,11 @@ pub struct Comparison {
 pub struct Rerun {
     /// Inputs that differ from the stored ones: versions of the program's stages.
     pub inputs: Vec<Change>,
-    /// Measurements, as stored and as computed now.
     pub chi: Vec<ChiPair>,
     /// EI, as stored and as computed now.
     pub ei: [f64; 2],
 }
 
-/// Returns everything stored about a job.
-///
-/// # Errors
-/// When there is no such job.
 pub fn record(store: &Store, id: JobId) -> Result<Record> {
     let sql = "SELECT program_version, git_commit, git_dirty, machine, seed FROM provenance WHERE job_id = ?";
     let row = |row: &Row<'_>| {
@@ -118,10 +97,6 @@ pub fn record(store: &Store, id: JobId) -> Result<Record> {
     })
 }
 
-/// Returns two jobs side by side.
-///
-/// # Errors
-/// When one of the jobs does not exist.
 pub fn compare(store: &Store, before: JobId, after: JobId) -> Result<Comparison> {
     let [a, b] = [record(store, before)?, record(store, after)?];
     Ok(Comparison {
@@ -132,9 +107,6 @@ pub fn compare(store: &Store, before: JobId, after: JobId) -> Result<Comparison>
 }
 
 /// Runs a job again from its stored inputs, without the cache. The stored result stays.
-///
-/// # Errors
-/// When the job has no result yet, its body is a scan that was not stored, or a stage fails.
 pub fn rerun(store: &Store, id: JobId) -> Result<Rerun> {
     let metrics = read::metrics(store, id)?.ok_or_else(|| StudyError::NotFound {
         what: "result of job",
@@ -154,9 +126,6 @@ pub fn rerun(store: &Store, id: JobId) -> Result<Rerun> {
 }
 
 /// True if `page`, with its time `written_ms` (ms since 1970), is the report that this database last wrote of a study.
-///
-/// # Errors
-/// When the database cannot be read.
 pub fn knows_report(store: &Store, study: &str, page: &Path, written_ms: i64) -> Result<bool> {
     let sql = "SELECT EXISTS (SELECT 1 FROM study_report JOIN study USING (study_id)
         WHERE name = ? AND page = ? AND written_at = ?)";
@@ -164,10 +133,6 @@ pub fn knows_report(store: &Store, study: &str, page: &Path, written_ms: i64) ->
     Ok(store.reader.prepare_cached(sql)?.query_row((study, page, written_ms), |row| row.get(0))?)
 }
 
-/// Stores path and time (ms since 1970) of the page that was just written as a study's report.
-///
-/// # Errors
-/// When the database is open read-only.
 pub fn remember_report(store: &mut Store, study: &str, page: &Path, written_ms: i64) -> Result<()> {
     let sql = "INSERT OR REPLACE INTO study_report (study_id, page, written_at)
         SELECT study_id, ?, ? FROM study WHERE name = ?";
@@ -175,7 +140,6 @@ pub fn remember_report(store: &mut Store, study: &str, page: &Path, written_ms: 
     Ok(())
 }
 
-/// Specification of a job, from its stored inputs.
 pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
     let job = read::job(store, id)?;
     let inputs = enqueue::inputs(store, id)?;

@@ -7,23 +7,19 @@ use std::time::UNIX_EPOCH;
 use crate::reporting::{self, Tell};
 use store::{Result, Store, files};
 
-/// A report in a folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReportRow {
     /// Name of the report's folder: that of its study, unless it was built elsewhere.
     pub name: String,
-    /// Path of the HTML page.
     pub page: PathBuf,
-    /// Size of the page, bytes.
     pub bytes: u64,
-    /// Time when the page was written, ms since 1970 (UTC).
+    /// Since 1970 (UTC).
     pub written_ms: i64,
     /// Number of files beside the page, those in folders included.
     pub files: usize,
 }
 
 /// Reports in the subfolders of a folder, by name; empty where the folder cannot be read.
-#[must_use]
 pub fn reports(folder: &Path) -> Vec<ReportRow> {
     let folders = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
     let mut found: Vec<ReportRow> = folders.filter_map(|folder| report(&folder)).collect();
@@ -44,17 +40,12 @@ fn report(folder: &Path) -> Option<ReportRow> {
     })
 }
 
-/// Number of files below a folder.
 fn count(folder: &Path) -> usize {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     entries.map(|entry| if entry.path().is_dir() { count(&entry.path()) } else { 1 }).sum()
 }
 
-/// Builds the report of a study in a folder of its own below `folder`. `tell` hears of each part. Returns the path of
-/// its page.
-///
-/// # Errors
-/// When there is no such study, a stored result cannot be read, or a file cannot be written.
+/// Builds the report in a folder of its own below `folder`. Returns the path of its page.
 pub fn build_report(store: &Store, study: &str, folder: &Path, tell: Tell<'_>) -> Result<PathBuf> {
     let folder = folder.join(files::study_folder(study));
     files::write_files(&folder, &reporting::report(store, study, None, tell)?)?;

@@ -16,32 +16,28 @@ pub fn head(width: f64, height: f64) -> String {
 
 /// A square panel with two axes; lengths in px.
 pub struct Panel {
-    /// Distance of the left side from that of the picture.
+    /// Distance from the left side of the picture.
     pub left: f64,
-    /// Length of the sides.
     pub side: f64,
-    /// Distance of the top from that of the picture.
+    /// Distance from the top of the picture.
     pub margin: f64,
     /// Limits of the horizontal axis.
     pub x: (f64, f64),
-    /// Limits of the vertical axis.
     pub y: (f64, f64),
 }
 
 impl Panel {
     /// Horizontal position of a value.
-    #[must_use]
     pub fn across(&self, x: f64) -> f64 {
         self.left + (x - self.x.0) / (self.x.1 - self.x.0) * self.side
     }
 
     /// Vertical position of a value.
-    #[must_use]
     pub fn up(&self, y: f64) -> f64 {
         self.margin + self.side - (y - self.y.0) / (self.y.1 - self.y.0) * self.side
     }
 
-    /// Draws frame, title and axes. The texts are escaped.
+    /// Escapes the texts.
     pub fn frame(&self, svg: &mut String, title: &str, [across, up]: [&str; 2]) {
         let Self { left, side, margin, x, y } = self;
         let bottom = margin + side;
@@ -64,7 +60,6 @@ impl Panel {
         let _ = writeln!(svg, "<text x=\"{left}\" y=\"{}\">{up}</text>", margin - 8.0);
     }
 
-    /// Draws a line of the legend.
     pub fn legend(&self, svg: &mut String, number: usize, colour: &str, text: &str) {
         let y = self.margin + 18.0 + 18.0 * number as f64;
         let _ = writeln!(svg, "<circle cx=\"{}\" cy=\"{}\" r=\"5\" fill=\"{colour}\"/>", self.left + 14.0, y - 4.0);

@@ -10,7 +10,6 @@ use store::{Result, Store, read};
 const PANEL: f64 = 420.0;
 const MARGIN: f64 = 56.0;
 
-/// A subject in one garment, with its size to wear.
 struct Dot {
     garment: String,
     subject: String,
@@ -23,9 +22,6 @@ struct Dot {
 
 /// Draws an SVG picture of a study: a panel for each garment, a dot for each subject in the colour of the size to wear.
 /// A dot is hollow where that size is tight or loose at some level.
-///
-/// # Errors
-/// When there is no such study.
 pub fn size_map(store: &Store, study: &str) -> Result<String> {
     read::study(store, study)?;
     let dots = dots(store, study)?;
@@ -42,7 +38,6 @@ pub fn size_map(store: &Store, study: &str) -> Result<String> {
     Ok(svg)
 }
 
-/// All subjects in all garments with their sizes to wear, by garment.
 fn dots(store: &Store, study: &str) -> Result<Vec<Dot>> {
     let sql = "WITH known AS (
             SELECT DISTINCT job.subject, stature_mm FROM job JOIN subject USING (subject_id) JOIN study USING (study_id)
@@ -66,7 +61,6 @@ fn dots(store: &Store, study: &str) -> Result<Vec<Dot>> {
     Ok(dots.collect::<rusqlite::Result<_>>()?)
 }
 
-/// Draws one garment: axes, dots, and legend of the colours.
 fn panel(svg: &mut String, garment: &str, dots: &[&Dot], left: f64) {
     let (x, y) = (axis(dots.iter().map(|dot| dot.stature_mm)), axis(dots.iter().map(|dot| dot.girth_mm)));
     let panel = Panel { left, side: PANEL, margin: MARGIN, x, y };

@@ -5,9 +5,7 @@ use geom::constants::Constant;
 use crate::{cloth, contact, fem, hybrid, laboratory, outfit, placement, solver};
 use crate::{cover, distortion, hands, levels, quality, sewing};
 
-/// Returns all constants that decide results, in a fixed order. A stored result that was computed with other values is
-/// out of date.
-#[must_use]
+/// Constants in a fixed order. A stored result that was computed with other values is out of date.
 pub fn constants() -> Vec<Constant> {
     let own = [
         cover::CONSTANTS,

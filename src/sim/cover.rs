@@ -9,31 +9,27 @@ use pattern::{Garment, Role};
 
 geom::constants! {
     "cover",
-    /// Distance by which the inner cloth keeps below the cover, m.
+    /// Distance by which the inner cloth keeps below the cover.
     const WITHIN_M: f64 = 1.5e-3;
-    /// Greatest distance outside the cover at which cloth is still drawn back, m. A hem hangs out that far from a
-    /// garment into which it is tucked.
+    /// Greatest distance outside the cover at which cloth is still drawn back. A hem hangs out that far from a garment
+    /// into which it is tucked.
     const REACH_M: f64 = 0.25;
-    /// Length by which the cover is continued straight beyond its free edges, m. Cloth that passes under an edge then
+    /// Length by which the cover is continued straight beyond its free edges. Cloth that passes under an edge then
     /// passes below the continuation.
     const CONTINUES_M: f64 = 0.03;
     /// Barycentric weight of a corner below which a point counts as on the opposite side of the triangle.
     const ON_SIDE: f64 = 1e-6;
 }
 
-/// Part of the body that cloth is worn on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Limb {
-    /// Trunk and legs.
+    /// Legs included.
     Trunk,
-    /// The right arm.
     ArmRight,
-    /// The left arm.
     ArmLeft,
 }
 
 impl Limb {
-    /// Limb on which a piece of a role is worn.
     fn of(role: Role) -> Self {
         match role {
             Role::SleeveRight => Self::ArmRight,
@@ -43,27 +39,21 @@ impl Limb {
     }
 }
 
-/// Part of the cover around one limb.
 struct Sheet {
     surface: Surface,
     mesh: TriMesh,
     normals: Vec<V3>,
-    /// Free edges of the part, the smaller vertex first, sorted.
     rim: Vec<[usize; 2]>,
 }
 
-/// A draped garment as an outer bound for another.
+/// Draped garment as an outer bound for another.
 pub struct Cover {
     sheets: BTreeMap<Limb, Sheet>,
-    /// Limb of each vertex of the inner cloth.
     limbs: Vec<Limb>,
 }
 
 impl Cover {
-    /// Makes a cover of a garment that is sewn, with its vertices at `positions`, m.
-    ///
-    /// # Errors
-    /// When it has no triangle.
+    /// Covers a sewn garment. Fails where it has no triangle.
     pub fn new(garment: &Garment, positions: &[V3]) -> Result<Self, SimError> {
         let vertex_of = sewing::welded(garment);
         let x = sewing::merged(&vertex_of, positions);
@@ -81,7 +71,6 @@ impl Cover {
     }
 
     /// Sets the inner garment, whose vertices are merged as `vertex_of` says.
-    #[must_use]
     pub fn over(mut self, garment: &Garment, vertex_of: &[usize]) -> Self {
         self.limbs = vec![Limb::Trunk; vertex_of.iter().max().map_or(0, |most| most + 1)];
         for piece in &garment.pieces {
@@ -95,7 +84,6 @@ impl Cover {
 
     /// Depth by which a vertex at `p` violates the bound, m, and the unit direction back; `None` where it is within, or
     /// beyond the end of the cover.
-    #[must_use]
     pub fn trespass(&self, vertex: usize, p: &V3) -> Option<(f64, V3)> {
         let sheet = self.sheets.get(self.limbs.get(vertex)?)?;
         let (distance_m, nearest) = sheet.surface.nearest_within(p, REACH_M);
@@ -115,16 +103,12 @@ impl Cover {
         (depth > 0.0).then_some((depth, -outward))
     }
 
-    /// True if a vertex of cloth at `x` violates the bound by more than the distance that it is kept below the cover:
-    /// then it is outside.
-    #[must_use]
     pub fn is_pierced(&self, x: &[V3]) -> bool {
         x.iter().enumerate().any(|(v, p)| self.trespass(v, p).is_some_and(|(depth, _)| depth > WITHIN_M))
     }
 }
 
 impl Sheet {
-    /// True if a point of a triangle, given by barycentric weights, lies on a free edge.
     fn is_rim(&self, corners: [usize; 3], weights: [f64; 3]) -> bool {
         let on: Vec<usize> = (0..3).filter(|&k| weights[k] > ON_SIDE).map(|k| corners[k]).collect();
         match on[..] {

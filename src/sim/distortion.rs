@@ -11,7 +11,7 @@ use pattern::Spot;
 
 geom::constants! {
     "distortion",
-    /// Share of the area that may be stretched by more than the measure, as the module says.
+    /// Share of the area that may be stretched by more than the measure.
     pub const SHARE: f64 = 0.01;
 }
 

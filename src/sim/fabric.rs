@@ -9,84 +9,75 @@ use std::sync::LazyLock;
 use geom::units::GRAVITY;
 use weights::Standing;
 
-/// Secant moduli of a knit under stretch, where they differ from those at rest.
+/// Secant moduli of a knit under stretch.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stretched {
     /// Relative elongation at which they were measured.
     pub stretch: f64,
-    /// Secant modulus along the grain line there, stress over Green strain, N/m.
+    /// Stress over Green strain along the grain line.
     pub membrane_warp_n_m: f64,
-    /// Secant modulus across the grain line there, N/m.
+    /// Across the grain line.
     pub membrane_weft_n_m: f64,
 }
 
-/// Name of the default fabric.
+/// Default fabric.
 pub const USUAL: &str = "cotton_shirting_light";
 
-/// Mechanical properties of a fabric, in SI units.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fabric {
     /// Name in the library or the study (`cotton_shirting_light`).
     pub name: String,
-    /// Areal density, kg/m2.
     pub density_kg_m2: f64,
-    /// Thickness of a single layer, m.
+    /// Single layer.
     pub thickness_m: f64,
-    /// Strip modulus along the grain line, N/m.
+    /// Strip modulus along the grain line.
     pub membrane_warp_n_m: f64,
-    /// Strip modulus across the grain line, N/m.
+    /// Strip modulus across the grain line.
     pub membrane_weft_n_m: f64,
-    /// Coupling modulus of the membrane law, N/m (0 where the moduli are strip moduli).
+    /// 0 where the moduli are strip moduli.
     #[serde(default)]
     pub membrane_coupling_n_m: f64,
-    /// Shear modulus S in `W = S gamma^2 / 2` per area, gamma the full shear angle, N/m.
+    /// Modulus S in `W = S gamma^2 / 2` per area, gamma the full shear angle.
     pub shear_n_m: f64,
-    /// Bending rigidity for a fold that curves the warp, N m.
+    /// Rigidity for a fold that curves the warp.
     pub bending_warp_nm: f64,
-    /// Bending rigidity for a fold that curves the weft, N m.
+    /// Rigidity for a fold that curves the weft.
     pub bending_weft_nm: f64,
-    /// Coulomb friction coefficient on the body.
+    /// Coulomb coefficient.
     pub friction_body: f64,
-    /// Coulomb friction coefficient of the cloth on itself.
     pub friction_self: f64,
-    /// Sources of the numbers.
     pub source: String,
-    /// Moduli under stretch; without them the law is linear.
+    /// Without them the law is linear.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stretched: Option<Stretched>,
 }
 
 impl Fabric {
-    /// Bending lengths along and across the grain line, m: `(B / (w g))^(1/3)`. That is half the length of a strip
-    /// whose chord slopes by 41.5 degrees when it bends under its own weight in a cantilever test [Peirce 1930].
-    #[must_use]
+    /// Along and across the grain line: `(B / (w g))^(1/3)`, half the length of a strip whose chord slopes by 41.5
+    /// degrees when it bends under its own weight in a cantilever test [Peirce 1930].
     pub fn bending_lengths_m(&self) -> [f64; 2] {
         [self.bending_warp_nm, self.bending_weft_nm].map(|rigidity| self.bending_length_m(rigidity))
     }
 
-    /// Percentile ranks of its bending rigidities along and across the grain line, among the known cloths of its
-    /// weight.
-    #[must_use]
+    /// Along and across the grain line, among the known cloths of its weight.
     pub fn standings(&self) -> [Standing; 2] {
         weights::standings(self.density_kg_m2, [self.bending_warp_nm, self.bending_weft_nm])
     }
 
-    /// Scatter of the known cloths of its weight. Bending lengths along the grain line, from the lowest to the highest
-    /// percentile of [`weights::ends`], then those across it, m.
-    #[must_use]
+    /// Bending lengths of the known cloths of its weight: along the grain line from the lowest to the highest
+    /// percentile of [`weights::ends`], then across it.
     pub fn scatter_m(&self) -> [[f64; 2]; 2] {
         let [least, most] = weights::ends().map(|end| weights::rigidities(self.density_kg_m2, end));
         [0, 1].map(|side| [least[side], most[side]].map(|rigidity| self.bending_length_m(rigidity)))
     }
 
-    /// Bending length of a cloth of its weight with a rigidity, m.
     fn bending_length_m(&self, rigidity_nm: f64) -> f64 {
         (rigidity_nm / (self.density_kg_m2 * GRAVITY)).cbrt()
     }
 
-    /// Properties of its weight, stretch and bending. Two fabrics that share them are one cloth.
+    /// Weight, stretch and bending. Two fabrics that share them are one cloth.
     fn numbers(&self) -> [f64; 7] {
         [
             self.density_kg_m2,
@@ -99,20 +90,18 @@ impl Fabric {
         ]
     }
 
-    /// Entry of the library for this fabric; `None` where it is not in the library or its properties were changed.
-    #[must_use]
+    /// Entry of the library; `None` where the fabric is not in it or its properties were changed.
     pub fn known(&self) -> Option<&'static Known> {
         KNOWN.iter().find(|known| known.fabric.name == self.name && known.fabric.numbers() == self.numbers())
     }
 }
 
-/// Kind of data behind a fabric of the library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
     /// One cloth, whose weight and bending were measured.
     Cloth,
-    /// A sort of cloths: the bending is a percentile of the known cloths of that weight.
+    /// Sort of cloths: the bending is a percentile of the known cloths of that weight.
     Class,
     /// No real cloth: parameters of a computation.
     Model,
@@ -128,13 +117,11 @@ impl fmt::Display for Kind {
     }
 }
 
-/// Group of properties of a cloth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Part {
-    /// Membrane moduli along and across the grain line.
+    /// Moduli along and across the grain line.
     Membrane,
-    /// Shear modulus.
     Shear,
 }
 
@@ -147,12 +134,10 @@ impl fmt::Display for Part {
     }
 }
 
-/// A fabric of the library, with its origin.
+/// Fabric of the library, with its origin.
 #[derive(Clone, Debug)]
 pub struct Known {
-    /// Properties in SI units, with their source.
     pub fabric: Fabric,
-    /// Kind of data behind it.
     pub kind: Kind,
     /// Properties that were measured on another cloth than bending and weight were.
     pub of_another: Vec<Part>,
@@ -167,23 +152,19 @@ static KNOWN: LazyLock<Vec<Known>> = LazyLock::new(|| {
     library.fabric.into_iter().flat_map(Row::read).collect()
 });
 
-/// A row of the library file.
 #[derive(serde::Deserialize)]
 struct Row {
     kind: Kind,
     #[serde(default)]
     of_another: Vec<Part>,
-    /// Percentile of the bending rigidity among the cloths of its weight, for a class.
+    /// For a class: percentile of the rigidity among the cloths of its weight.
     bending_percentile: Option<f64>,
-    /// Another name of the same fabric.
     also: Option<String>,
-    /// Fields of the [`Fabric`].
     #[serde(flatten)]
     numbers: toml::Table,
 }
 
 impl Row {
-    /// Makes the fabric, once for each name.
     fn read(self) -> Vec<Known> {
         let Self { kind, of_another, bending_percentile, also, mut numbers } = self;
         if let Some(percentile) = bending_percentile {
@@ -201,16 +182,10 @@ impl Row {
     }
 }
 
-/// Returns the fabrics of the library, with the kind of data behind each.
-#[must_use]
 pub fn known() -> &'static [Known] {
     &KNOWN
 }
 
-/// Returns the fabrics of the library.
-///
-/// Never: the library is part of the program, and a test reads it.
-#[must_use]
 pub fn library() -> Vec<Fabric> {
     KNOWN.iter().map(|known| known.fabric.clone()).collect()
 }

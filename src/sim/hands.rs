@@ -17,36 +17,33 @@ use geom::{DistanceField, V3};
 
 geom::constants! {
     "hands",
-    /// Greatest distance of a hand's skin from the wrist, m.
+    /// Greatest distance of a hand's skin from the wrist.
     const REACH_M: f64 = 0.25;
-    /// Greatest distance of a hand's skin from the hand's axis, m. If any lies farther, a scan's hand has grown
-    /// together with the thigh.
+    /// Greatest distance of a hand's skin from its axis. If any lies farther, a scan's hand has grown together with the
+    /// thigh.
     const WIDEST_M: f64 = 0.15;
     /// Share of the hand's length, at its end, whose middle gives the hand's direction.
     const END: f64 = 0.4;
-    /// Length of the wrist that gives the half width of a folded hand, m.
+    /// Length of the wrist that gives the half width of a folded hand.
     const WRIST_M: f64 = 0.02;
-    /// Half width of a folded hand over that of the wrist. A narrow hem on the coarsest mesh has four corners or three.
-    /// It closes only about a solid that is so much thinner than a wrist: the incircle of a triangle has 0.6 of the
-    /// triangle's perimeter.
+    /// Half width of a folded hand over that of the wrist. A narrow hem on the coarsest mesh has four corners or three,
+    /// and closes only about a solid that is so much thinner than a wrist: the incircle of a triangle has 0.6 of its
+    /// perimeter.
     const FOLDED: f64 = 0.65;
     /// Half width of a folded hand at its end over that at its root.
     const NARROWING: f64 = 0.5;
-    /// Distance from a hand within which cloth meets the solid, m.
+    /// Distance from a hand within which cloth meets the solid.
     const NEAR_M: f64 = 0.08;
-    /// Distance from the solid beyond which the field is left unchanged, m: the fields hold no distances beyond that.
+    /// Distance from the solid beyond which the field is left unchanged: the fields hold no distances beyond that.
     const SHELL_M: f64 = 0.0125;
-    /// Distance of the open solid from the hand, m: triangles of 15 mm cut its corners.
+    /// Distance of the open solid from the hand: triangles of 15 mm cut its corners.
     const ROOM_M: f64 = 4e-3;
-    /// Number of steps in which a hand opens.
     const OPENINGS: u32 = 4;
-    /// Number of steps in which the solid shrinks to the hand itself.
+    /// Steps in which the solid shrinks to the hand itself.
     const BARINGS: u32 = 4;
 }
 
-/// A hand on its own.
 pub struct Hand {
-    /// Its tip, m.
     pub tip: V3,
     /// Vertices of the body's mesh, in order.
     pub skin: Vec<usize>,
@@ -55,7 +52,7 @@ pub struct Hand {
 }
 
 impl Hand {
-    /// The hand beyond the wrist on a side (1 right, -1 left); `None` where no skin is a hand's.
+    /// `side` is 1 right, -1 left. `None` where no skin is a hand's.
     pub fn of(body: &Body, side: f64) -> Option<Self> {
         let joints =
             if side > 0.0 { [Joint::ElbowRight, Joint::WristRight] } else { [Joint::ElbowLeft, Joint::WristLeft] };
@@ -85,18 +82,16 @@ impl Hand {
         Some(Self { tip: wrist + tip, supports: [support(0.0, &fold), support(ROOM_M, &|p| *p)], skin })
     }
 
-    /// Approximate signed distance of a point from the solid, folded and open, m, negative inside.
+    /// Approximate signed distance from the solid, folded and open, m, negative inside.
     fn distances(&self, p: &V3) -> [f64; 2] {
         let most = |supports: &Vec<f64>| directions().zip(supports).map(|(n, h)| n.dot(p) - h).fold(f64::MIN, f64::max);
         [most(&self.supports[0]), most(&self.supports[1])]
     }
 
-    /// True if cloth at `p` may come to touch the hand.
     fn is_near(&self, p: &V3) -> bool {
         self.distances(p)[1] < NEAR_M
     }
 
-    /// The nodes of a body's field about the open hand.
     fn nodes(&self, body: &Body, field: &DistanceField) -> Vec<Node> {
         let reach = V3::repeat(SHELL_M + ROOM_M);
         let points = || self.skin.iter().map(|&v| body.mesh.positions[v]);
@@ -117,14 +112,13 @@ impl Hand {
     }
 }
 
-/// Directions all around in mirrored pairs, from the middle of a cube to a grid on its faces.
+/// Mirrored pairs all around, from the middle of a cube to a grid on its faces.
 fn directions() -> impl Iterator<Item = V3> {
     let coordinate = |k: i32| f64::from(k - 2);
     let grid = (0..125).map(move |i| V3::new(coordinate(i / 25), coordinate(i / 5 % 5), coordinate(i % 5)));
     grid.filter(|n| n.amax() == 2.0).map(|n| n.normalize())
 }
 
-/// Vertices beyond the plane through the wrist that are connected with the nearest of them, in order.
 fn skin_beyond(body: &Body, wrist: V3, along: V3) -> Vec<usize> {
     let positions = &body.mesh.positions;
     let is_beyond = |v: usize| {
@@ -148,18 +142,15 @@ fn skin_beyond(body: &Body, wrist: V3, along: V3) -> Vec<usize> {
     skin.into_iter().collect()
 }
 
-/// A node of the body's field near a hand.
 struct Node {
     index: usize,
     /// Approximate signed distances from the folded and the open hand, m.
     distances: [f64; 2],
-    /// Distance by the body's field, m.
     value: f64,
     /// True if the nearest skin is the hand's.
     is_hands: bool,
 }
 
-/// The hands that a garment comes near.
 pub struct Hands<'a> {
     field: &'a DistanceField,
     hands: Vec<Hand>,
@@ -167,7 +158,7 @@ pub struct Hands<'a> {
 }
 
 impl<'a> Hands<'a> {
-    /// The hands of a body that cloth at `x` comes near; `None` where it comes near none.
+    /// `None` where cloth at `x` comes near none.
     pub fn near(body: &Body, field: &'a DistanceField, x: &[V3]) -> Option<Self> {
         let hands = [1.0, -1.0].into_iter().filter_map(|side| Hand::of(body, side));
         let hands: Vec<Hand> = hands.filter(|hand| x.iter().any(|p| hand.is_near(p))).collect();
@@ -175,23 +166,20 @@ impl<'a> Hands<'a> {
         (!nodes.is_empty()).then_some(Self { field, hands, nodes })
     }
 
-    /// The triangles of a cloth at `x` that are near.
     pub fn near_triangles(&self, triangles: &[[usize; 3]], x: &[V3]) -> Vec<[usize; 3]> {
         let is_near: Vec<bool> = x.iter().map(|p| self.hands.iter().any(|hand| hand.is_near(p))).collect();
         triangles.iter().copied().filter(|t| t.iter().any(|v| is_near[*v])).collect()
     }
 
-    /// The field of the body with folded hands.
     pub fn folded(&self) -> DistanceField {
         self.field(Shape { open: 0.0, bare: 0.0, is_passing: false })
     }
 
-    /// The shapes that a level meets without friction, with their fields.
+    /// Shapes that a level meets without friction, with their fields.
     pub fn of_level(&self, level: usize, finest: usize) -> impl Iterator<Item = (Shape, DistanceField)> {
         Shape::of_level(level, finest).into_iter().map(|shape| (shape, self.field(shape)))
     }
 
-    /// The field of the body with hands of some shape.
     fn field(&self, shape: Shape) -> DistanceField {
         let value = |node: &Node| {
             let [folded, open] = node.distances;
@@ -203,7 +191,6 @@ impl<'a> Hands<'a> {
     }
 }
 
-/// A shape of hands before the last phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape {
     /// 0 for the folded hand, 1 for the open solid.
@@ -215,8 +202,7 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// The shapes that a level meets without friction: hands are folded on the coarsest level, open on the next, and
-    /// become bare on the finest.
+    /// Hands are folded on the coarsest level, open on the next, and become bare on the finest.
     fn of_level(level: usize, finest: usize) -> Vec<Self> {
         let steps = |count: u32| (1..count).map(move |step| f64::from(step) / f64::from(count));
         if level == 0 && finest > 0 {
@@ -234,7 +220,6 @@ mod tests {
     use super::*;
     use body::{self, Measurements, Pose, Sex};
 
-    /// A body with its arms stretched out, and its field.
     fn stretched_out() -> (Body, DistanceField) {
         let body = body::build(&Measurements::of(Sex::Male, 1.75)).expect("a body");
         let body = body::pose(&body, Pose { arm_deg: Some(90.0), ..Pose::default() }).expect("arms reach so far");

@@ -17,13 +17,11 @@ geom::constants! {
     const ROUNDED_EDGES: f64 = 3.0;
 }
 
-/// World positions for the vertices of `cloth`, which is the sewn mesh of `fine`: the drape of `coarse`, interpolated
-/// at their places in the planes of the pieces. The facets of the coarse mesh are smoothed, except where that would
-/// make the cloth intersect itself.
+/// Drape of `coarse`, interpolated at the vertices of `cloth`, the sewn mesh of `fine`. Facets of the coarse mesh are
+/// smoothed, except where that would make the cloth intersect itself.
 ///
 /// Facets that are left in do not vanish later. A dimple is nearly isometric to the smooth surface, but it would have
 /// to stretch the cloth to pop out.
-#[must_use]
 pub fn prolong(coarse: &Garment, coarse_positions: &[V3], fine: &Garment, cloth: &Cloth, fabric: &Fabric) -> Vec<V3> {
     let x = cloth.weld(&evaluate(coarse, coarse_positions, fine));
     let mut rounded = x.clone();
@@ -31,8 +29,8 @@ pub fn prolong(coarse: &Garment, coarse_positions: &[V3], fine: &Garment, cloth:
     held_apart(&x, &rounded, &cloth.triangles)
 }
 
-/// Smooths the cloth by its bending stiffness `Q` alone: one implicit step `(Q + k A) d = -Q x`. The parameter `k = B
-/// (2 pi / wave_m)^4` halves the amplitude of waves of length `wave_m`.
+/// Smooths by the bending stiffness `Q` alone: one implicit step `(Q + k A) d = -Q x`. `k = B (2 pi / wave_m)^4` halves
+/// the amplitude of waves of length `wave_m`.
 fn round_off(cloth: &Cloth, fabric: &Fabric, wave_m: f64, x: &mut [V3]) {
     let rigidity_nm = (fabric.bending_warp_nm * fabric.bending_weft_nm).sqrt();
     let stiffness_n_m3 = rigidity_nm * (std::f64::consts::TAU / wave_m).powi(4);
@@ -53,10 +51,9 @@ fn round_off(cloth: &Cloth, fabric: &Fabric, wave_m: f64, x: &mut [V3]) {
     x.iter_mut().zip(moved).for_each(|(p, d)| *p += d);
 }
 
-/// Interpolates the drape of `coarse` at the places of the vertices of `fine` in the planes of the pieces.
-///
-/// Vertices outside the coarse outline, where a chord cuts a curve, are extrapolated from the nearest triangle. The two
-/// sides of a seam then differ by a little; welding takes their mean.
+/// Interpolates the drape of `coarse` in the planes of the pieces. Vertices outside the coarse outline, where a chord
+/// cuts a curve, are extrapolated from the nearest triangle. The two sides of a seam then differ by a little; welding
+/// takes their mean.
 fn evaluate(coarse: &Garment, coarse_positions: &[V3], fine: &Garment) -> Vec<V3> {
     let mut positions = vec![V3::zeros(); fine.rest.len()];
     for (piece, source) in fine.pieces.iter().zip(&coarse.pieces) {
@@ -70,7 +67,6 @@ fn evaluate(coarse: &Garment, coarse_positions: &[V3], fine: &Garment) -> Vec<V3
     positions
 }
 
-/// A point located in a mesh.
 struct Located {
     triangle: usize,
     /// Barycentric weights of the sorted corners.
@@ -78,7 +74,7 @@ struct Located {
     is_inside: bool,
 }
 
-/// Point location among the triangles of one piece, by a uniform grid of buckets.
+/// Triangles of one piece in a uniform grid of buckets.
 struct Locator<'a> {
     garment: &'a Garment,
     low: V2,
@@ -120,7 +116,7 @@ impl<'a> Locator<'a> {
         [cell(p.x - self.low.x, self.columns), cell(p.y - self.low.y, self.rows)]
     }
 
-    /// Returns the triangle that contains a point, or else the one with the least negative barycentric weight.
+    /// Triangle that contains a point, or else the one with the least negative barycentric weight.
     fn locate(&self, p: V2) -> Located {
         let [column, row] = self.bucket(p);
         for ring in 0.. {
@@ -136,7 +132,7 @@ impl<'a> Locator<'a> {
         unreachable!("the buckets hold at least one triangle")
     }
 
-    /// Returns the best triangle of the buckets at most `ring` away from one.
+    /// Best triangle of the buckets at most `ring` away from one.
     fn best_within(&self, p: V2, column: usize, row: usize, ring: usize) -> Option<Located> {
         let mut best: Option<(f64, usize, [f64; 3])> = None;
         for r in row.saturating_sub(ring)..=(row + ring).min(self.rows - 1) {
@@ -153,7 +149,6 @@ impl<'a> Locator<'a> {
         best.map(|(outside, triangle, weights)| Located { triangle, weights, is_inside: outside <= 1e-9 })
     }
 
-    /// Barycentric weights of a point for the sorted corners of a triangle.
     fn barycentric(&self, triangle: usize, p: V2) -> [f64; 3] {
         let [a, b, c] = sorted(self.garment.triangles[triangle]).map(|v| self.garment.rest[v]);
         let area = (b - a).perp(&(c - a));

@@ -7,34 +7,28 @@ use body::Body;
 use geom::{DistanceField, V3};
 use pattern::{Garment, Role, Spot};
 
-/// A sample point of the cloth: a vertex, the middle of an edge or the centroid of a triangle.
+/// Vertex, middle of an edge or centroid of a triangle.
 #[derive(Clone, Copy)]
 struct Sample {
-    /// Vertices that it lies between; a vertex is there three times, the second end of an edge twice.
+    /// A vertex is there three times, the second end of an edge twice.
     between: [usize; 3],
-    /// Position, m.
     place: V3,
 }
 
-/// The deepest sample inside the body.
 struct Deepest {
-    /// Depth below the surface, m.
     depth_m: f64,
-    /// Vertices that the sample lies between.
     between: [usize; 3],
 }
 
-/// Greatest penetration of the cloth into the body, m; 0 where nothing is inside. Vertices, edge midpoints and triangle
-/// centroids are tested against the exact surface. NaN for a body mesh that encloses no volume.
-#[must_use]
+/// 0 where nothing is inside. Vertices, edge midpoints and triangle centroids are tested against the exact surface. NaN
+/// for a body mesh that encloses no volume.
 pub fn penetration_m(body: &Body, garment: &Garment, positions: &[V3]) -> f64 {
     Skin::new(&body.mesh).map_or(f64::NAN, |skin| depth_m(deepest(&skin, samples(garment, positions))))
 }
 
-/// As [`penetration_m`], with a distance field as a filter: only samples that the field does not show clearly outside
-/// are tested against the exact surface, which is much faster. NaN where a sample is in doubt and there is no `skin`,
-/// as for a mesh that encloses no volume.
-#[must_use]
+/// As [`penetration_m`], with a distance field as a filter: only samples that it does not show clearly outside are
+/// tested against the exact surface, which is much faster. NaN where a sample is in doubt and there is no `skin`, as
+/// for a mesh that encloses no volume.
 pub fn penetration_by_field_m(skin: Option<&Skin>, field: &DistanceField, garment: &Garment, positions: &[V3]) -> f64 {
     let is_doubtful = |sample: &Sample| field.value_and_gradient(&sample.place).0 < CLEAR_M;
     let mut doubtful = samples(garment, positions).filter(is_doubtful).peekable();
@@ -45,8 +39,7 @@ pub fn penetration_by_field_m(skin: Option<&Skin>, field: &DistanceField, garmen
     }
 }
 
-/// Place on the pattern at which the cloth penetrates the body deepest; `None` where it does not.
-#[must_use]
+/// `None` where nothing penetrates the body.
 pub fn deepest_spot(body: &Body, garment: &Garment, positions: &[V3]) -> Option<Spot> {
     let found = deepest(&Skin::new(&body.mesh).ok()?, samples(garment, positions))?;
     garment.spot(&found.between)
@@ -54,12 +47,12 @@ pub fn deepest_spot(body: &Body, garment: &Garment, positions: &[V3]) -> Option<
 
 geom::constants! {
     "quality",
-    /// Distance in the field beyond which a sample counts as outside, m. It is the greatest error of the field: the
-    /// field is blurred, and so it misses fingers and creases.
+    /// Distance in the field beyond which a sample counts as outside: its greatest error, since it is blurred and
+    /// misses fingers and creases.
     const CLEAR_M: f64 = 4e-3;
 }
 
-/// Every vertex, every edge midpoint and every triangle centroid, once.
+/// Every vertex, edge midpoint and triangle centroid, once.
 fn samples<'a>(garment: &'a Garment, positions: &'a [V3]) -> impl Iterator<Item = Sample> + 'a {
     let edges = edges_of(&garment.triangles).pairs().to_vec();
     let vertex = |(v, p): (usize, &V3)| Sample { between: [v; 3], place: *p };
@@ -69,8 +62,7 @@ fn samples<'a>(garment: &'a Garment, positions: &'a [V3]) -> impl Iterator<Item 
     vertices.chain(edges.into_iter().map(middle)).chain(garment.triangles.iter().map(centroid))
 }
 
-/// Deepest of some samples that are inside the body. The quick depth sorts the candidates, and the winding number
-/// confirms the first.
+/// The quick depth sorts the candidates, and the winding number confirms the first.
 fn deepest(skin: &Skin, samples: impl Iterator<Item = Sample>) -> Option<Deepest> {
     let mut inside: Vec<(f64, Sample)> = samples.filter_map(|s| Some((skin.quick_depth(&s.place)?, s))).collect();
     inside.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -82,22 +74,18 @@ fn depth_m(deepest: Option<Deepest>) -> f64 {
     deepest.map_or(0.0, |deepest| deepest.depth_m)
 }
 
-/// Greatest distance between the two vertices of a seam pair, m; 0 where nothing is sewn.
-#[must_use]
+/// Greatest gap of a seam pair; 0 where nothing is sewn.
 pub fn seam_gap_m(garment: &Garment, positions: &[V3]) -> f64 {
     sewing::widest_seam(garment, positions).map_or(0.0, |seam| seam.gap_m)
 }
 
-/// Number of pairs of an edge and a triangle of the same cloth that intersect and share no vertex. `triangles` refer to
-/// sewn vertices at `x`.
-#[must_use]
+/// Number of edges and triangles that intersect and share no vertex. `triangles` refer to sewn vertices at `x`.
 pub fn self_crossings(x: &[V3], triangles: &[[usize; 3]]) -> usize {
     let edges = edges_of(triangles);
     intersections(x, edges.pairs(), triangles).len()
 }
 
-/// Place on the pattern at which a sewn garment intersects itself; `None` where it does not.
-#[must_use]
+/// `None` where the garment does not intersect itself.
 pub fn crossed_spot(garment: &Garment, positions: &[V3]) -> Option<Spot> {
     let group = sewing::welded(garment);
     let mut first = vec![usize::MAX; positions.len()];
@@ -112,8 +100,8 @@ pub fn crossed_spot(garment: &Garment, positions: &[V3]) -> Option<Spot> {
     garment.spot(&crossed)
 }
 
-/// Height of the highest vertex of the pieces worn on trunk or limbs, m; of all pieces where no role is known. It shows
-/// a garment that slides down: a flared hem may sink while the top stays, and a hood, whose role is another, may fall
+/// Height of the highest vertex of the pieces worn on trunk or limbs; of all pieces where no role is known. It shows a
+/// garment that slides down: a flared hem may sink while the top stays, and a hood, whose role is another, may fall
 /// back.
 pub fn top_m(garment: &Garment, positions: &[V3]) -> f64 {
     let height_m = |vertices: &[V3]| vertices.iter().map(|p| p.z).fold(f64::MIN, f64::max);

@@ -4,9 +4,8 @@ use crate::SimError;
 use geom::V3;
 use pattern::Garment;
 
-/// Simulated vertex of each garment vertex once every seam is closed [T, Algorithm 5.4]. The vertices of seam pairs are
-/// merged into groups by union-find, and the groups are numbered in the order of their smallest members.
-#[must_use]
+/// Simulated vertex of each garment vertex once every seam is closed [T, Algorithm 5.4]: union-find over seam pairs,
+/// groups numbered in the order of their smallest members.
 pub fn welded(garment: &Garment) -> Vec<usize> {
     let mut leader: Vec<usize> = (0..garment.rest.len()).collect();
     fn find(leader: &mut [usize], mut v: usize) -> usize {
@@ -34,8 +33,7 @@ pub fn welded(garment: &Garment) -> Vec<usize> {
         .collect()
 }
 
-/// Positions of the simulated vertices: the mean of the garment vertices of each group.
-#[must_use]
+/// Mean of the garment vertices of each group.
 pub fn merged(vertex_of: &[usize], positions: &[V3]) -> Vec<V3> {
     let count = vertex_of.iter().max().map_or(0, |m| m + 1);
     let mut sums = vec![(V3::zeros(), 0.0); count];
@@ -46,32 +44,25 @@ pub fn merged(vertex_of: &[usize], positions: &[V3]) -> Vec<V3> {
     sums.into_iter().map(|(sum, n)| sum / n).collect()
 }
 
-/// Simulated vertex of each garment vertex while nothing is sewn: the vertex itself.
-#[must_use]
+/// Numbers vertices as if nothing were sewn.
 pub fn unsewn(garment: &Garment) -> Vec<usize> {
     (0..garment.rest.len()).collect()
 }
 
-/// A seam pair and the distance between its two vertices.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeamGap {
-    /// Distance between the two vertices, m.
     pub gap_m: f64,
-    /// Garment vertices of the pair.
     pub pair: [usize; 2],
 }
 
-/// Returns the seam pair with the widest gap; `None` where nothing is sewn.
-#[must_use]
+/// `None` where nothing is sewn.
 pub fn widest_seam(garment: &Garment, positions: &[V3]) -> Option<SeamGap> {
     let pairs = garment.seams.iter().flat_map(|s| &s.pairs);
     let gaps = pairs.map(|&[a, b]| SeamGap { gap_m: (positions[a] - positions[b]).norm(), pair: [a, b] });
     gaps.max_by(|first, second| first.gap_m.total_cmp(&second.gap_m))
 }
 
-/// Checks that the seams of a garment with its vertices at `positions` (m) are closed.
-///
-/// [`SimError::Open`] where a seam pair is more than [`OPEN_M`] apart.
+/// Fails with [`SimError::Open`] where a seam pair is more than [`OPEN_M`] apart.
 pub fn closed(garment: &Garment, positions: &[V3]) -> Result<(), SimError> {
     let piece_of = |v: usize| garment.pieces.iter().find(|piece| piece.vertices.contains(&v));
     let name = |v: usize| piece_of(v).map_or_else(String::new, |piece| piece.id.clone());
@@ -83,17 +74,15 @@ pub fn closed(garment: &Garment, positions: &[V3]) -> Result<(), SimError> {
     }
 }
 
-/// Springs between the vertices of seam pairs. The force is `f = min(k d, f_max)` for a distance `d` [T 4.15]. The
-/// limit `f_max` keeps distant pairs from overstretching the cloth.
+/// Springs between the vertices of seam pairs, `f = min(k d, f_max)` for a distance `d` [T 4.15]. The limit keeps
+/// distant pairs from overstretching the cloth.
 #[derive(Clone, Debug)]
 pub struct Springs {
-    /// Garment vertices at the ends of each spring.
     pub pairs: Vec<[usize; 2]>,
-    /// Stiffness `k`, N/m.
+    /// Stiffness `k`.
     pub stiffness_n_m: f64,
-    /// Greatest force `f_max`, N.
+    /// Greatest force `f_max`.
     pub cap_n: f64,
-    /// Greatest force at the beginning, N. `cap_n` grows from it.
     first_cap_n: f64,
 }
 
@@ -102,13 +91,11 @@ geom::constants! {
     /// Greatest factor by which the springs are strengthened. Judgement: garments whose cloth is stretched by half took
     /// factors up to 2e4.
     const MOST_GROWTH: f64 = 1e6;
-    /// Gap above which a seam counts as open, m. Welding such a seam would not give the garment of the pattern.
+    /// Gap above which a seam counts as open. Welding it would not give the garment of the pattern.
     pub const OPEN_M: f64 = 8e-2;
 }
 
 impl Springs {
-    /// Springs on all seams of a garment that is not welded.
-    #[must_use]
     pub fn new(garment: &Garment, stiffness_n_m: f64, cap_n: f64) -> Self {
         Self {
             pairs: garment.seams.iter().flat_map(|s| s.pairs.iter().copied()).collect(),
@@ -118,20 +105,17 @@ impl Springs {
         }
     }
 
-    /// Greatest distance of a pair, m.
-    #[must_use]
+    /// Greatest distance of a pair.
     pub fn gap_m(&self, x: &[V3]) -> f64 {
         self.pairs.iter().map(|&[a, b]| (x[a] - x[b]).norm()).fold(0.0, f64::max)
     }
 
-    /// Mean distance of the pairs, m.
-    #[must_use]
     pub fn mean_gap_m(&self, x: &[V3]) -> f64 {
         self.pairs.iter().map(|&[a, b]| (x[a] - x[b]).norm()).sum::<f64>() / self.pairs.len().max(1) as f64
     }
 
-    /// Multiplies stiffness and greatest force by a factor, so that distant and near pairs both feel it. Returns
-    /// `false` once the greatest growth is reached, and then changes nothing.
+    /// Multiplies stiffness and greatest force, so that distant and near pairs both feel it. Returns `false` once the
+    /// greatest growth is reached, and then changes nothing.
     pub fn tighten(&mut self, factor: f64) -> bool {
         let is_weaker = self.cap_n < MOST_GROWTH * self.first_cap_n;
         if is_weaker {
@@ -141,8 +125,7 @@ impl Springs {
         is_weaker
     }
 
-    /// Energy, J: `k d^2 / 2` up to the distance `f_max / k`, linear beyond.
-    #[must_use]
+    /// J: `k d^2 / 2` up to the distance `f_max / k`, linear beyond.
     pub fn energy(&self, x: &[V3]) -> f64 {
         let knee = self.cap_n / self.stiffness_n_m;
         let spring_j = |&[a, b]: &[usize; 2]| {

@@ -9,27 +9,22 @@ use geom::units::GRAVITY;
 use geom::{TriMesh, V3};
 use pattern::Garment;
 
-/// A sewn garment at rest, with its mechanical model.
+/// Sewn garment at rest, with its mechanical model.
 pub struct Sewn<'a> {
     garment: &'a Garment,
     cloth: Cloth,
-    /// Mesh of the sewn cloth, in which the vertices of a seam are merged.
+    /// Vertices of a seam are merged.
     pub mesh: TriMesh,
 }
 
 impl<'a> Sewn<'a> {
-    /// Sets up a garment with its vertices at `positions`, m.
-    ///
-    /// # Errors
-    /// When a triangle of the pattern mesh has no area.
     pub fn new(garment: &'a Garment, fabric: &Fabric, positions: &[V3]) -> Result<Self, SimError> {
         let cloth = Cloth::new(garment, fabric, sewing::welded(garment))?;
         let mesh = TriMesh { positions: cloth.weld(positions), triangles: cloth.triangles.clone() };
         Ok(Self { garment, cloth, mesh })
     }
 
-    /// Averages values at the vertices of the garment over the vertices that are sewn together.
-    #[must_use]
+    /// Averages values of the garment's vertices over those that are sewn together.
     pub fn welded(&self, values: &[f64]) -> Vec<f64> {
         let mut sums = vec![(0.0, 0.0); self.mesh.positions.len()];
         for (value, &vertex) in values.iter().zip(&self.cloth.vertex_of) {
@@ -39,18 +34,15 @@ impl<'a> Sewn<'a> {
         sums.into_iter().map(|(sum, count)| sum / f64::max(count, 1.0)).collect()
     }
 
-    /// Greater principal stretch at each vertex of the garment, less 1, in percent. It is the root of the greater
-    /// eigenvalue of `C = I + 2 E`.
-    #[must_use]
+    /// Greater principal stretch at each vertex, less 1: the root of the greater eigenvalue of `C = I + 2 E`.
     pub fn stretches_pct(&self) -> Vec<f64> {
         let stretch = |strain: &Matrix2<f64>| (1.0 + 2.0 * greater_eigenvalue(strain)).max(0.0).sqrt();
         let strains = self.cloth.membrane.strains(&self.mesh.positions);
         self.at_vertices(strains.iter().map(|strain| 100.0 * (stretch(strain) - 1.0)))
     }
 
-    /// Greater principal tension at each vertex of the garment, N/m, at least 0. It is the greater eigenvalue of the
-    /// Cauchy membrane force `F S F^T / J`, which equals that of `S C / J`.
-    #[must_use]
+    /// Greater principal tension at each vertex, at least 0: the greater eigenvalue of the Cauchy membrane force `F S
+    /// F^T / J`, which equals that of `S C / J`.
     pub fn tensions_n_m(&self) -> Vec<f64> {
         let tension = |(triangle, strain): (usize, Matrix2<f64>)| {
             let c = Matrix2::identity() + strain * 2.0;
@@ -61,10 +53,9 @@ impl<'a> Sewn<'a> {
         self.at_vertices(self.cloth.membrane.strains(&self.mesh.positions).into_iter().enumerate().map(tension))
     }
 
-    /// Contact pressure at each vertex of the sewn cloth, kPa, at least 0. In equilibrium the contact force is the
-    /// negative of elastic forces and weight. The pressure is the component of that force along the vertex normal, over
-    /// the area of the vertex. Away from the body it is near 0.
-    #[must_use]
+    /// Contact pressure at each vertex of the sewn cloth, at least 0. In equilibrium the contact force is the negative
+    /// of elastic forces and weight. The pressure is its component along the vertex normal, over the area of the
+    /// vertex. Away from the body it is near 0.
     pub fn welded_pressures_kpa(&self) -> Vec<f64> {
         let (cloth, x) = (&self.cloth, &self.mesh.positions);
         let mut forces: Vec<V3> = cloth.masses.iter().map(|mass| V3::new(0.0, 0.0, -mass * GRAVITY)).collect();
@@ -91,16 +82,14 @@ impl<'a> Sewn<'a> {
         sums.into_iter().map(pressure).collect()
     }
 
-    /// Contact pressure at each vertex of the garment, kPa ([`Self::welded_pressures_kpa`]).
-    #[must_use]
+    /// [`Self::welded_pressures_kpa`] at each vertex of the garment.
     pub fn pressures_kpa(&self) -> Vec<f64> {
         let welded = self.welded_pressures_kpa();
         self.cloth.vertex_of.iter().map(|vertex| welded[*vertex]).collect()
     }
 
-    /// Nodal means of values per triangle: at each vertex of the garment the mean over its triangles, weighted by their
-    /// rest areas. The values of constant-strain triangles alternate about the true field, and the nodal mean recovers
-    /// it. Vertices without a triangle get 0.
+    /// Nodal means of values per triangle, weighted by rest areas. The values of constant-strain triangles alternate
+    /// about the true field, and the nodal mean recovers it. Vertices without a triangle get 0.
     fn at_vertices(&self, values: impl Iterator<Item = f64>) -> Vec<f64> {
         let garment = self.garment;
         let mut sums = vec![(0.0, 0.0); garment.rest.len()];
@@ -115,7 +104,7 @@ impl<'a> Sewn<'a> {
     }
 }
 
-/// The greater of the two real eigenvalues, from trace and determinant.
+/// From trace and determinant; both eigenvalues are real.
 fn greater_eigenvalue(m: &Matrix2<f64>) -> f64 {
     let half = 0.5 * m.trace();
     half + (half * half - m.determinant()).max(0.0).sqrt()
@@ -128,7 +117,6 @@ mod tests {
     use pattern::SeamMesh;
     use pattern::garment::{PieceMesh, Role};
 
-    /// A square metre of cloth, its grain along `y`.
     fn square() -> Garment {
         Garment {
             name: String::new(),
@@ -151,7 +139,7 @@ mod tests {
         }
     }
 
-    /// A fabric of 2 kN/m along the weft and 4 along the warp.
+    /// 2 kN/m along the weft and 4 along the warp.
     fn plain() -> Fabric {
         let stiffness =
             Fabric { membrane_weft_n_m: 2000.0, membrane_warp_n_m: 4000.0, ..crate::fabric::library()[0].clone() };
@@ -192,7 +180,6 @@ mod tests {
         check(&|p| V3::new(p.y, 0.0, p.x), 0.0);
     }
 
-    /// A tube of cloth around a cylinder, its grain along the axis, its ends sewn together.
     fn tube(radius: f64, around: usize, rows: usize, edge: f64) -> Garment {
         let vertex = |row: usize, column: usize| row * (around + 1) + column;
         let mut tube = square();
@@ -223,7 +210,6 @@ mod tests {
         tube
     }
 
-    /// A stretched tube presses with its hoop tension over its radius (Laplace's law).
     #[test]
     fn a_stretched_tube_presses_with_its_tension_over_its_radius() {
         const RADIUS: f64 = 0.15;

@@ -9,7 +9,7 @@ use pattern::piece::Piece;
 use pattern::style::EdgeRef;
 use pattern::{Garment, Role, Style, garmentcode};
 
-/// A fabric whose numbers all differ, so that a test shows where two are interchanged.
+/// Numbers all differ, so that a test shows where two are interchanged.
 pub fn fabric() -> Fabric {
     Fabric {
         name: "test".into(),
@@ -28,7 +28,7 @@ pub fn fabric() -> Fabric {
     }
 }
 
-/// A drape at rest without faults and without cloth.
+/// At rest without faults and without cloth.
 pub fn drape() -> Drape {
     Drape {
         stage: Stage::Drape,
@@ -66,8 +66,8 @@ pub fn check_forces(energy: impl Fn(&[V3]) -> f64, forces: &[V3], x: &[V3], h: f
     }
 }
 
-/// Smallest drafted T-shirt with a collar on its back neck and a lapel on either side of its V. The lapels are folded
-/// outwards where `is_folded`, and else continue the cloth.
+/// Smallest drafted T-shirt with a collar on its back neck and a lapel on either side of its V, folded outwards where
+/// `is_folded`, else continuing the cloth.
 pub fn lapelled(edge_m: f64, is_folded: bool) -> Garment {
     const WIDE_M: f64 = 0.06;
     let mut pieces = Model::Tshirt.drafts()[0].pieces.clone();
@@ -108,7 +108,7 @@ pub fn lapelled(edge_m: f64, is_folded: bool) -> Garment {
     style.expect("a style").mesh(edge_m).expect("a mesh")
 }
 
-/// A panel in centimetres. Its edges are straight, except for those in `curved`.
+/// Centimetres. Edges are straight, except for those in `curved`.
 pub fn panel(corners: &[[f64; 2]], [x, z]: [f64; 2], curved: &[(usize, Value)]) -> Value {
     let edge = |k: usize| {
         let mut edge = json!({ "endpoints": [k, (k + 1) % corners.len()] });
@@ -121,13 +121,12 @@ pub fn panel(corners: &[[f64; 2]], [x, z]: [f64; 2], curved: &[(usize, Value)]) 
     json!({ "translation": [x, 0, z], "rotation": [0, 0, 0], "vertices": corners, "edges": edges })
 }
 
-/// A stitch between two edges, each a panel and the index of its edge.
+/// Panel and index of the edge.
 pub fn stitch(one: (&str, usize), other: (&str, usize)) -> Value {
     let side = |(panel, edge): (&str, usize)| json!({ "panel": panel, "edge": edge });
     json!([side(one), side(other)])
 }
 
-/// Mesh of a garment of panels and stitches; `role` gives the role of each piece.
 pub fn sewn(panels: &Value, stitches: &[Value], role: impl Fn(&str) -> Role) -> Garment {
     let document = json!({
         "pattern": { "panels": panels, "stitches": stitches },
@@ -141,12 +140,11 @@ pub fn sewn(panels: &Value, stitches: &[Value], role: impl Fn(&str) -> Role) -> 
     garment
 }
 
-/// Front or back of a skirt, by the name of the piece.
 pub fn skirt_role(id: &str) -> Role {
     if id.starts_with("back") { Role::SkirtBack } else { Role::SkirtFront }
 }
 
-/// A skirt of half circles: each tier has a front and a back of some inner radius (cm), 30 cm long.
+/// Skirt of half circles: each tier has a front and a back of some inner radius (cm), 30 cm long.
 pub fn tiered(radii: &[f64]) -> Garment {
     let (mut panels, mut stitches) = (json!({}), Vec::new());
     let arc = |radius: f64, sweep: u8| json!({ "type": "circle", "params": [radius, 0, sweep] });

@@ -6,16 +6,13 @@
 
 use crate::{Drape, SimError};
 
-/// Faults of a drape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Faults {
-    /// True where the seams have squeezed the garment off the body: it is not worn.
+    /// True where the seams have squeezed the garment off the body.
     pub came_off: bool,
-    /// True where the garment has not come to rest.
     pub moves: bool,
-    /// Edges that pierce the garment's own cloth.
     pub self_crossings: usize,
-    /// Deepest point inside the body, m; 0 by a simulator in which tight cloth may lie inside.
+    /// Deepest point inside the body; 0 by a simulator in which tight cloth may lie inside.
     pub depth_m: f64,
     /// Mean error of the measured lengths; 0 by a simulator in which tight cloth stretches.
     pub length_error: f64,
@@ -24,28 +21,21 @@ pub struct Faults {
 /// Limits up to which faults count as none, and their order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Criteria {
-    /// Depth that counts as outside, m.
     pub depth_m: f64,
-    /// Mean error of the measured lengths that counts as none.
     pub length_error: f64,
     /// True where a drape at rest is better than any that still moves, whatever else is wrong with it.
     pub is_rest_first: bool,
 }
 
 impl Faults {
-    /// True if the drape has no fault.
-    #[must_use]
     pub fn are_none(&self, criteria: &Criteria) -> bool {
         let is_at_rest_on_the_body = !self.came_off && !self.moves && self.self_crossings == 0;
         is_at_rest_on_the_body && self.depth_m <= criteria.depth_m && self.length_error <= criteria.length_error
     }
 
-    /// True if these faults are less than those of another drape.
-    ///
     /// Equilibrium, self-intersection and penetration are constraints of different kinds. None makes up for another, so
     /// a better drape is better in one of them and worse in none (Pareto dominance). Depths up to the limit are equal.
     /// If the constraints are equal the error of the lengths decides: it is an objective, not a constraint.
-    #[must_use]
     pub fn are_less_than(&self, other: &Self, criteria: &Criteria) -> bool {
         if self.came_off || other.came_off {
             return !self.came_off;
@@ -62,32 +52,22 @@ impl Faults {
     }
 }
 
-/// A garment that a simulator can put on in several ways.
 pub trait Trial {
-    /// A way to put it on.
     type Way;
 
-    /// Limits and order of its faults.
     const CRITERIA: Criteria;
 
-    /// Puts it on in one way.
-    ///
-    /// # Errors
-    /// Those of the simulator, or [`SimError::Cancelled`].
     fn put_on(&mut self, way: &Self::Way) -> Result<Drape, SimError>;
 
-    /// Faults of one of its drapes.
     fn faults(&self, drape: &Drape) -> Faults;
 
-    /// True while the budget allows another try, where the best drape so far has the faults `least`.
+    /// True while the budget allows another try; the best drape so far has the faults `least`.
     fn has_time(&self, least: &Faults) -> bool;
 }
 
-/// The best drape of a garment: `first`, or one of those that `ways` lead to. Ends with the first drape without a
-/// fault, or when the budget is used up. Of drapes neither of which is better the earlier is kept.
-///
-/// # Errors
-/// The first refusal where no way leads to a drape; [`SimError::Cancelled`] as soon as a way ends so.
+/// Best of `first` and the drapes that `ways` lead to. Ends with the first without a fault, or when the budget is used
+/// up. Of drapes neither of which is better the earlier is kept. Fails with [`SimError::Cancelled`] as soon as a way
+/// ends so.
 pub fn best<T: Trial>(
     trial: &mut T,
     first: Option<Drape>,
@@ -115,10 +95,8 @@ pub fn best<T: Trial>(
     best.map(|(_, drape)| drape).ok_or_else(|| refusal.unwrap_or(SimError::NoMesh))
 }
 
-/// Result of the first of some ways that ends without an error, after one that ended with `refusal`.
-///
-/// # Errors
-/// `refusal` where all ways end with an error; [`SimError::Cancelled`] as soon as one ends so.
+/// Result of the first way that ends without an error, after one that ended with `refusal`. Fails with
+/// [`SimError::Cancelled`] as soon as one ends so.
 pub fn instead<Way, Found>(
     refusal: SimError,
     ways: impl IntoIterator<Item = Way>,
@@ -142,7 +120,6 @@ mod tests {
     const PHYSICAL: Criteria = Criteria { depth_m: 5e-4, length_error: 0.0, is_rest_first: false };
     const GEOMETRIC: Criteria = Criteria { depth_m: 0.0, length_error: 0.01, is_rest_first: true };
 
-    /// Faults of a worn garment.
     fn worn(is_at_rest: bool, self_crossings: usize, depth_m: f64, length_error: f64) -> Faults {
         Faults { came_off: false, moves: !is_at_rest, self_crossings, depth_m, length_error }
     }
@@ -187,7 +164,7 @@ mod tests {
         assert!(geometric(true, 0, 0.01).are_none(&GEOMETRIC) && !geometric(true, 0, 0.011).are_none(&GEOMETRIC));
     }
 
-    /// A garment with as many crossings as each way says; `None` where it is refused.
+    /// As many crossings as each way says; `None` where it is refused.
     struct Scripted {
         budget: usize,
         tried: usize,

@@ -5,11 +5,9 @@ use body::{Body, Layer};
 use geom::V3;
 use pattern::{Garment, Role};
 
-/// A plane, or a half-plane that begins at a point.
 struct Wall {
-    /// A point of it, m.
     point: V3,
-    /// Unit normal of the plane.
+    /// Unit normal.
     normal: V3,
     /// Direction in which a half-plane extends from its point; `None` for a whole plane.
     onwards: Option<V3>,
@@ -24,9 +22,6 @@ pub struct Walls {
 }
 
 impl Walls {
-    /// The walls between the limbs of a body for a garment whose vertices are sewn together as `vertex_of` says, at
-    /// `x`.
-    #[must_use]
     pub fn new(body: &Body, garment: &Garment, vertex_of: &[usize], x: &[V3]) -> Self {
         let median = Wall { point: V3::zeros(), normal: V3::x(), onwards: None };
         let arms = [0, 1].map(|side| Wall::beside_arm(body, side));
@@ -50,16 +45,14 @@ impl Walls {
         Self { walls, keeps: sums.into_iter().map(keep).collect() }
     }
 
-    /// The same for the vertices before they are sewn.
-    #[must_use]
+    /// Walls for the vertices before they are sewn.
     pub fn unsewn(mut self, vertex_of: &[usize]) -> Self {
         self.keeps = vertex_of.iter().map(|&v| self.keeps[v]).collect();
         self
     }
 
-    /// Depth of a vertex at `p` on the wrong side, m, and the unit direction of the shortest way back, past the wall's
-    /// end if that is nearer; `None` where it is on its side.
-    #[must_use]
+    /// Depth of a vertex on the wrong side, m, and the unit direction of the shortest way back, past the wall's end if
+    /// that is nearer; `None` where it is on its side.
     pub fn trespass(&self, vertex: usize, p: &V3) -> Option<(f64, V3)> {
         let (wall, side) = self.keeps[vertex].filter(|(_, side)| *side != 0.0)?;
         let Wall { point, normal, onwards } = &self.walls[wall];
@@ -69,8 +62,7 @@ impl Walls {
         ways.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(depth, _)| *depth > 0.0)
     }
 
-    /// Projection of a vertex at `p` to the distance `offset_m` on its side; `None` where it is there already.
-    #[must_use]
+    /// Projection of a vertex to the distance `offset_m` on its side; `None` where it is there already.
     pub fn back(&self, vertex: usize, p: &V3, offset_m: f64) -> Option<V3> {
         let (wall, side) = self.keeps[vertex]?;
         let Wall { point, normal, onwards } = &self.walls[wall];
@@ -81,10 +73,8 @@ impl Walls {
     }
 }
 
-/// Index of the median plane.
 const MEDIAN: usize = 0;
 
-/// Wall and side that a piece of a role keeps to, at a place on the body.
 fn side_of(role: Role, at: &V3) -> Option<(usize, f64)> {
     match role {
         Role::LegFrontRight | Role::LegBackRight | Role::LegRight => Some((MEDIAN, 1.0)),
@@ -97,8 +87,7 @@ fn side_of(role: Role, at: &V3) -> Option<(usize, f64)> {
 }
 
 impl Wall {
-    /// The half-plane from the armpit outwards and down, along the bisector of arm and trunk; its normal points to the
-    /// arm.
+    /// Half-plane from the armpit outwards and down, along the bisector of arm and trunk; its normal points to the arm.
     fn beside_arm(body: &Body, side: usize) -> Self {
         use Layer::*;
         let [armscye, elbow] = [[ArmscyeRight, ElbowRight], [ArmscyeLeft, ElbowLeft]][side];

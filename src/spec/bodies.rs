@@ -12,26 +12,15 @@ pub use body::{
     PicturedLevel, Pose, Scan, Sex, write_obj,
 };
 
-/// Builds a body from measurements.
-///
-/// # Errors
-/// When a measurement is impossible.
 pub fn build_body(measurements: &Measurements) -> Result<Body> {
     body::build(measurements).origin(Origin::Body)
 }
 
-/// Builds a body from measurements and figures.
-///
-/// # Errors
-/// When a measurement is impossible, or the body cannot have a figure.
 pub fn build_figured(measurements: &Measurements, figures: &Figures) -> Result<Body> {
     body::build_figured(measurements, figures).origin(Origin::Body)
 }
 
 /// Reads figures as they are given: `flat_seat`, `flat_seat=strong`, `flat_seat=18`.
-///
-/// # Errors
-/// When a name or an amount is not known.
 pub fn figures<'a>(texts: impl IntoIterator<Item = &'a str>) -> Result<Figures> {
     Figures::read(texts).origin(Origin::Body)
 }
@@ -39,12 +28,10 @@ pub fn figures<'a>(texts: impl IntoIterator<Item = &'a str>) -> Result<Figures> 
 /// Report of `body build` on a body: its readings, doubts about the measurements, and its mass.
 #[derive(Debug, serde::Serialize)]
 pub struct Judgement<'a> {
-    /// Readings on the body.
     #[serde(flatten)]
     pub read: Read<'a>,
     /// Measurements that are rare among people whose other measurements are alike.
     pub doubts: Vec<Doubt>,
-    /// Mass, from the volume.
     #[serde(flatten)]
     pub mass: Mass,
 }
@@ -52,10 +39,8 @@ pub struct Judgement<'a> {
 /// Readings on a body, under the keys of `body measure`.
 #[derive(Debug, serde::Serialize)]
 pub struct Read<'a> {
-    /// Girths and levels.
     #[serde(flatten)]
     pub girths: &'a Girths,
-    /// Further measurements of a tailor, by key.
     #[serde(flatten)]
     pub tailor: BTreeMap<&'static str, Option<f64>>,
     /// Figures beside the standard body. `None` for a body that does not stand upright.
@@ -65,22 +50,17 @@ pub struct Read<'a> {
 /// Readings on a scan, under the keys of `body measure`.
 #[derive(Debug, serde::Serialize)]
 pub struct ReadScan {
-    /// Girths, lengths and tailor's measurements.
     #[serde(flatten)]
     pub measured: Measured,
     /// Figures beside the standard body. `None` without both feet, or where no standard body is like it.
     pub figures: Option<Vec<FigureFound>>,
 }
 
-/// Returns all readings on a body.
-#[must_use]
 pub fn read_body(body: &Body) -> Read<'_> {
     let tailor = body.tailor().into_iter().map(|taken| (taken.key, taken.written)).collect();
     Read { girths: &body.girths, tailor, figures: body::figures(body).ok() }
 }
 
-/// Returns a built body's readings, the doubts about its measurements, and its mass.
-#[must_use]
 pub fn judge_body<'a>(measurements: &Measurements, body: &'a Body) -> Judgement<'a> {
     Judgement {
         read: read_body(body),
@@ -89,75 +69,51 @@ pub fn judge_body<'a>(measurements: &Measurements, body: &'a Body) -> Judgement<
     }
 }
 
-/// Reads and measures a body scan. Unit and sex are inferred where they are not given.
-///
-/// # Errors
-/// When the scan cannot be read or shows no standing person.
+/// Infers unit and sex where they are not given.
 pub fn read_scan(scan: &SourceFile, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<Scan> {
     body::from_scan(&scan.bytes, unit, sex).map_err(in_scan(scan))
 }
 
-/// Reads and measures the scan of a person who stands on both feet.
-///
-/// # Errors
-/// As [`read_scan`], and where a foot is missing.
+/// Reads as [`read_scan`], and fails where a foot is missing.
 pub fn whole_scan(scan: &SourceFile, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<Scan> {
     let read = read_scan(scan, unit, sex)?;
     read.check_feet().map_err(in_scan(scan))?;
     Ok(read)
 }
 
-/// Returns all readings on a scan.
-///
-/// # Errors
-/// When a part of the body is not found.
 pub fn measured(scan: &Scan) -> Result<ReadScan> {
     Ok(ReadScan { measured: scan.measured().origin(Origin::Body)?, figures: scan.figures().ok().flatten() })
 }
 
-/// Makes a body that can wear garments from a scan.
-///
-/// # Errors
-/// When arms or legs are not apart, or the surface does not close.
+/// Makes a body that can wear garments. Fails where arms or legs are not apart, or the surface does not close.
 pub fn scanned_body(source: &SourceFile, scan: Scan) -> Result<Body> {
     scan.into_body().map_err(in_scan(source))
 }
 
-/// Moves a body into another pose.
-///
-/// # Errors
-/// When the limbs do not reach the pose, or would touch.
 pub fn pose_body(body: &Body, pose: Pose) -> Result<Body> {
     body::pose(body, pose).origin(Origin::Body)
 }
 
-/// Returns the closure that gives an error of a scan the name of its file.
 fn in_scan(scan: &SourceFile) -> impl Fn(body::BodyError) -> StudyError {
     |source| StudyError::refused(Origin::Body, InFile { file: scan.name.clone(), source })
 }
 
-/// Lens of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lens {
     /// Focal length in pixels of the pictures.
     FocalPx(f64),
-    /// Vertical field of view, degrees.
+    /// Vertical field of view.
     FieldDeg(f64),
 }
 
-/// Camera of a front and a side picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PictureCamera {
-    /// Lens of the camera.
     pub lens: Lens,
-    /// Distance of the camera from the person, m.
+    /// Distance from the person.
     pub distance_m: f64,
 }
 
-/// Reads a body from a front and a side picture. Without a camera the pictures count as orthographic.
-///
-/// # Errors
-/// When a picture cannot be read, or does not show exactly one whole person.
+/// Each picture must show exactly one whole person. Without a camera the pictures count as orthographic.
 pub fn read_pictures(
     front: &Path,
     side: &Path,
@@ -178,19 +134,13 @@ pub fn read_pictures(
 
 /// Writes the control mesh of a body as files: OBJ of its faces, and JSON with regions, joints, feature points, feature
 /// lines and girths as vertex numbers.
-///
-/// # Errors
-/// When the JSON cannot be written.
 pub fn control_files(body: &Body) -> Result<Vec<(String, Vec<u8>)>> {
     let json = body::write_control(body).origin(Origin::Body)?;
     let obj = body.control.write_obj();
     Ok(vec![("control.obj".to_owned(), obj.into_bytes()), ("control.json".to_owned(), json.into_bytes())])
 }
 
-/// Draws a body with the tape lines of its girths and other measurements, as PNG bytes.
-///
-/// # Errors
-/// When the mesh cannot be drawn.
+/// PNG with the tape lines of girths and other measurements.
 pub fn body_picture(body: &Body, view: View, width: u32, height: u32) -> Result<Vec<u8>> {
     let (tapes, lines) = (body.tapes(), body.lines());
     let layers = vec![

@@ -11,7 +11,6 @@ pub struct Field<T: 'static> {
     pub key: &'static str,
     /// Name on screens and in help.
     pub label: &'static str,
-    /// True where every entry must have the number.
     pub is_required: bool,
     pub(crate) range: RangeInclusive<f64>,
     pub(crate) get: Box<Get<T>>,
@@ -20,17 +19,12 @@ pub struct Field<T: 'static> {
 
 /// Another way to give a number of an entry, such as in another unit or by another test.
 pub struct Sheet<T: 'static> {
-    /// The number in the form in which it is given.
     pub field: Field<T>,
     /// Key of the [`Field`] that the number is converted to.
     pub key: &'static str,
 }
 
 impl<T: Entry> Sheet<T> {
-    /// Converts a number and sets the field of an entry.
-    ///
-    /// # Errors
-    /// When the field does not accept the converted value.
     pub(crate) fn apply(&self, entry: &mut T, number: f64) -> Result<(), String> {
         self.field.set(entry, Some(number));
         let stands_for = T::fields().iter().find(|field| field.key == self.key);
@@ -46,7 +40,6 @@ impl<T: Entry> Sheet<T> {
     }
 }
 
-/// True if a required field is given in none of the ways.
 pub(crate) fn is_absent<T: Entry>(field: &Field<T>, is_given: impl Fn(&str) -> bool) -> bool {
     let stand_ins = T::sheets().iter().filter(|sheet| sheet.key == field.key);
     field.is_required && !is_given(field.key) && !stand_ins.map(|sheet| sheet.field.key).any(is_given)
@@ -57,32 +50,24 @@ type Set<T> = dyn Fn(&mut T, Option<f64>) + Send + Sync;
 
 impl<T> Field<T> {
     /// Flag of the command line (`waist-girth-mm`).
-    #[must_use]
     pub fn flag(&self) -> String {
         self.key.replace('_', "-")
     }
 
-    /// Returns the number of an entry.
-    #[must_use]
     pub fn get(&self, entry: &T) -> Option<f64> {
         (self.get)(entry)
     }
 
-    /// Sets the number of an entry; `None` takes it away.
+    /// `None` takes it away.
     pub fn set(&self, entry: &mut T, value: Option<f64>) {
         (self.set)(entry, value);
     }
 
-    /// Least and greatest accepted number.
-    #[must_use]
+    /// Least and greatest number.
     pub fn accepted(&self) -> [f64; 2] {
         [*self.range.start(), *self.range.end()]
     }
 
-    /// Returns a number if it is within the accepted range.
-    ///
-    /// # Errors
-    /// The number, and the accepted range.
     pub fn check(&self, number: f64) -> Result<f64, String> {
         let range = &self.range;
         if range.contains(&number) {
@@ -91,10 +76,7 @@ impl<T> Field<T> {
         Err(format!("`{}` is {number}; accepted: {} to {}", self.key, range.start(), range.end()))
     }
 
-    /// Reads a number from text; `None` for empty text.
-    ///
-    /// # Errors
-    /// The text, and the accepted range.
+    /// `None` for empty text.
     pub fn read(&self, text: &str) -> Result<Option<f64>, String> {
         let range = &self.range;
         let accepted = format!("accepted: {} to {}", range.start(), range.end());
@@ -111,7 +93,6 @@ impl<T> Field<T> {
 
 /// Number of a text, with a point or a comma before its decimals. A comma before three digits may part thousands, so
 /// that text is no number.
-#[must_use]
 pub fn decimal(text: &str) -> Option<f64> {
     let Some((whole, decimals)) = text.split_once(',') else { return text.parse().ok() };
     let is_plain = !decimals.is_empty() && decimals.chars().all(|letter| letter.is_ascii_digit());
@@ -126,7 +107,6 @@ pub type Given = (String, String);
 
 /// An entry of the catalogue, made from keys and texts: the measurements of a subject, or a fabric.
 pub trait Entry: Clone + 'static {
-    /// Every number that the entry has, with its key, unit and accepted values.
     fn fields() -> &'static [Field<Self>];
 
     /// Other ways to give these numbers, in an order in which a conversion uses only numbers before it.
@@ -137,10 +117,8 @@ pub trait Entry: Clone + 'static {
     /// Keys of the texts besides the name, each with true where the text is required.
     const TEXTS: &'static [(&'static str, bool)];
 
-    /// An entry without any value.
     fn blank(name: &str) -> Self;
 
-    /// Sets the text of a key.
     fn set_text(&mut self, key: &str, text: &str) -> Result<(), String>;
 
     /// Checks that the numbers go together; the error is a key with its problem.
@@ -149,7 +127,6 @@ pub trait Entry: Clone + 'static {
     }
 }
 
-/// Returns all keys of an entry.
 pub fn keys<T: Entry>() -> Vec<&'static str> {
     let sheets = T::sheets().iter().map(|sheet| sheet.field.key);
     T::TEXTS.iter().map(|(key, _)| *key).chain(T::fields().iter().map(|field| field.key)).chain(sheets).collect()
@@ -157,9 +134,6 @@ pub fn keys<T: Entry>() -> Vec<&'static str> {
 
 /// Sets given values in a copy of `base`. Without `base` begins with a blank entry, which then needs all required
 /// values.
-///
-/// # Errors
-/// Every key with the problem of its value.
 pub fn filled<T: Entry>(base: Option<&T>, name: &str, given: &[Given]) -> Result<T, Vec<Given>> {
     let mut entry = base.cloned().unwrap_or_else(|| T::blank(name));
     let mut problems = Vec::new();

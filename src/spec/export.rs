@@ -13,16 +13,13 @@ use sim::Fabric;
 use store::files::SourceFile;
 
 impl Study {
-    /// Number of simulations of the study.
-    #[must_use]
     pub fn jobs(&self) -> usize {
         job::jobs(self).len()
     }
 }
 
-/// Returns the files that repeat a study elsewhere. Measurements, fabrics and parameters become numbers of the study
-/// file; patterns and scans lie beside it. The file names nothing of the catalogue, so each job keeps its inputs.
-#[must_use]
+/// Returns the files that repeat a study elsewhere. The study file names nothing of the catalogue, so each job keeps
+/// its inputs; patterns and scans lie beside it.
 pub fn export_study(study: &Study) -> Vec<(String, Vec<u8>)> {
     let mut files: Files = BTreeMap::new();
     let mut text = "# Written by `toile study export`.\n\n".to_owned();

@@ -10,7 +10,7 @@ use geom::units::{from_mm, mm};
 use sim::Fabric;
 use sim::fabric::Stretched;
 
-/// The measurements of a subject: every [`Dimension`], with names after ISO 8559-1.
+/// Every [`Dimension`], with names after ISO 8559-1.
 pub static MEASUREMENTS: LazyLock<Vec<Field<Measurements>>> =
     LazyLock::new(|| Dimension::ALL.into_iter().map(measurement).collect());
 
@@ -50,7 +50,6 @@ macro_rules! number {
     };
 }
 
-/// The numbers of a fabric.
 pub static FABRIC_NUMBERS: LazyLock<Vec<Field<Fabric>>> = LazyLock::new(|| {
     vec![
         number!(density_kg_m2, "areal density", 0.005..=5.0),
@@ -119,10 +118,6 @@ fn set_stretched(fabric: &mut Fabric, value: Option<f64>, set: fn(&mut Stretched
     }
 }
 
-/// Sex that a word names.
-///
-/// # Errors
-/// The word, and those that are accepted.
 pub fn sex(word: &str) -> Result<Sex, String> {
     match word.trim() {
         "male" | "m" | "M" => Ok(Sex::Male),
@@ -197,7 +192,7 @@ impl Entry for Fabric {
     }
 }
 
-/// Name of a subject's sex in SQL and study files.
+/// Name in SQL and study files.
 pub fn sex_name(m: &Measurements) -> &'static str {
     match m.sex {
         Sex::Male => "male",

@@ -10,7 +10,7 @@ use store::StageKind;
 #[serde(transparent)]
 pub struct Inputs(BTreeMap<String, String>);
 
-/// True if a stage depends on an input. The first part of the input's name decides.
+/// First part of the input's name decides.
 fn depends_on(stage: StageKind, name: &str) -> bool {
     let group = name.split('.').next().unwrap_or_default();
     match stage {
@@ -21,14 +21,12 @@ fn depends_on(stage: StageKind, name: &str) -> bool {
     }
 }
 
-/// Change of one input since an earlier job.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Change {
-    /// Name of the input.
     pub name: String,
-    /// Earlier value; `None` where the input is new.
+    /// `None` where the input is new.
     pub before: Option<String>,
-    /// Present value; `None` where the input is gone.
+    /// `None` where the input is gone.
     pub after: Option<String>,
 }
 
@@ -50,30 +48,23 @@ fn short(value: &str) -> &str {
 }
 
 impl Inputs {
-    /// Sets the value of a name, replacing an earlier value.
     pub fn set(&mut self, name: impl Into<String>, value: impl fmt::Display) {
         self.0.insert(name.into(), value.to_string());
     }
 
-    /// All names and values, by name.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &str)> {
         self.0.iter().map(|(name, value)| (name.as_str(), value.as_str()))
     }
 
-    /// Hash of all inputs, hex.
-    #[must_use]
     pub fn hash(&self) -> String {
         self.hash_of(|_| true).to_hex().to_string()
     }
 
-    /// Hash of all inputs, as bytes.
-    #[must_use]
     pub fn digest(&self) -> [u8; 32] {
         *self.hash_of(|_| true).as_bytes()
     }
 
     /// Hash of a stage and of the inputs that it depends on, hex.
-    #[must_use]
     pub fn stage_hash(&self, stage: StageKind) -> String {
         let mut hasher = blake3::Hasher::new();
         hasher.update(stage.as_str().as_bytes());
@@ -81,8 +72,7 @@ impl Inputs {
         hasher.finalize().to_hex().to_string()
     }
 
-    /// Hash of the inputs whose names `matters` accepts. The length of each text goes before it, so that no two lists
-    /// of inputs have the same bytes.
+    /// Puts the length of each text before it, so that no two lists of inputs have the same bytes.
     fn hash_of(&self, matters: impl Fn(&str) -> bool) -> blake3::Hash {
         let mut hasher = blake3::Hasher::new();
         for (name, value) in self.0.iter().filter(|(name, _)| matters(name)) {
@@ -94,8 +84,7 @@ impl Inputs {
         hasher.finalize()
     }
 
-    /// Changes since earlier inputs, sorted by name.
-    #[must_use]
+    /// Sorted by name.
     pub fn changes_since(&self, earlier: &Self) -> Vec<Change> {
         let mut names: Vec<&String> = self.0.keys().chain(earlier.0.keys()).collect();
         names.sort();

@@ -16,37 +16,26 @@ use store::{JobRow, Result, StudyError};
 /// One simulation with everything that it needs.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct JobSpec {
-    /// Name of the garment in the study.
     pub garment: String,
-    /// Name of the garment's style in the catalogue.
     pub style: String,
-    /// Name of the size, such as `M`.
     pub size: String,
-    /// Name of the subject in the study.
     pub subject: String,
-    /// Simulator that drapes the garment.
     pub simulator: Simulator,
-    /// Number of the repeat, from 1.
+    /// Counts from 1.
     pub repeat: u32,
-    /// Wearer: measurements or scan, and pose.
     #[serde(flatten)]
     pub person: Person,
-    /// Pattern of the size.
     pub pattern: SourceFile,
     /// Unit of the pattern, where its file names none.
     pub unit: Option<String>,
-    /// Seam file; `None` where the pattern holds its own seams.
+    /// `None` where the pattern holds its own seams.
     pub seams: Option<SourceFile>,
-    /// Fabric that the garment is cut from.
     pub fabric: Fabric,
-    /// Edge length of the finest mesh, m.
+    /// Edge length of the finest mesh.
     pub edge_length_m: f64,
-    /// Parameters of the simulators that differ from their defaults.
     pub parameters: Parameters,
-    /// Priority, order and limits.
     #[serde(default)]
     pub schedule: Schedule,
-    /// Outfit of which the garment is a layer, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outfit: Option<Outfit>,
     /// Job that drapes the garment in the pose in which it is put on, if the body then moves and carries it along.
@@ -62,12 +51,10 @@ pub const PATTERN_SIZE: &str = "pattern.size";
 /// Name of the input with the pose that a garment was carried from.
 pub const CARRIED_FROM: &str = "carried.from";
 
-/// Outfit of a job, with all its layers.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Outfit {
-    /// Name of the outfit.
     pub name: String,
-    /// Index of the layer, the inmost 0.
+    /// Index, the inmost 0.
     pub layer: usize,
     /// Every layer as a job of its own, the inmost first.
     pub layers: Vec<JobSpec>,
@@ -87,34 +74,24 @@ impl Outfit {
 /// Selection of jobs of a study; an empty list takes all.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
-    /// Names of simulators, `fem` and `hybrid`.
+    /// `fem` and `hybrid`.
     pub simulators: Vec<String>,
-    /// Names of sizes, in upper or lower case.
+    /// Names in upper or lower case.
     pub sizes: Vec<String>,
-    /// Names of subjects of the study.
     pub subjects: Vec<String>,
-    /// Names of garments of the study.
     pub garments: Vec<String>,
 }
 
 impl Selection {
-    /// True if the job of a cell of a study is selected.
-    #[must_use]
     pub fn takes(&self, cell: Cell, study: &Study) -> bool {
         let (garment, size, subject) = (cell.garment(study), cell.size(study), cell.subject(study));
         self.takes_cell([cell.simulator.as_str(), &size.name, &subject.id, &garment.name])
     }
 
-    /// True if the job of a stored row is selected.
-    #[must_use]
     pub fn takes_row(&self, job: &JobRow) -> bool {
         self.takes_cell([job.simulator.as_str(), &job.size, &job.subject, &job.garment])
     }
 
-    /// Checks that a study has every name of the selection.
-    ///
-    /// # Errors
-    /// [`StudyError::NotFound`] with the names that the study has.
     pub fn check(&self, study: &Study) -> Result<()> {
         let sizes = study.worn().flat_map(|garment| &garment.sizes).map(|size| size.name.as_str());
         let axes: [(&'static str, &[String], Vec<&str>); 4] = [
@@ -143,14 +120,12 @@ impl Selection {
     }
 }
 
-/// All jobs of a study, in the order of its file: garments, sizes, subjects, simulators, repeats.
-#[must_use]
+/// Order is that of the file: garments, sizes, subjects, simulators, repeats.
 pub fn jobs(study: &Study) -> Vec<JobSpec> {
     cells(study).iter().map(|cell| cell.job(study)).collect()
 }
 
-/// Jobs of one garment on one subject, in the same order.
-#[must_use]
+/// Order is that of `jobs`.
 pub fn jobs_of(study: &Study, garment: &str, subject: &str) -> Vec<JobSpec> {
     let is_wanted = |cell: &&Cell| cell.garment(study).name == garment && cell.subject(study).id == subject;
     cells(study).iter().filter(is_wanted).map(|cell| cell.job(study)).collect()
@@ -162,41 +137,32 @@ pub struct Cell {
     garment: u32,
     size: u32,
     subject: u32,
-    /// Simulator that drapes the garment.
     pub simulator: Simulator,
-    /// Number of the repeat, from 1.
+    /// Counts from 1.
     pub repeat: u32,
 }
 
 impl Cell {
     /// Garment of the study that made the cell, or layer of an outfit.
-    #[must_use]
     pub fn garment(self, study: &Study) -> &GarmentEntry {
         let index = self.garment as usize;
         study.garments.get(index).unwrap_or_else(|| &study.layers[index - study.garments.len()])
     }
 
-    /// Size of the garment.
-    #[must_use]
     pub fn size(self, study: &Study) -> &SizeFile {
         &self.garment(study).sizes[self.size as usize]
     }
 
-    /// Subject who wears the garment.
-    #[must_use]
     pub fn subject(self, study: &Study) -> &Subject {
         &study.subjects[self.subject as usize]
     }
 
-    /// Job of the cell.
-    #[must_use]
     pub fn job(self, study: &Study) -> JobSpec {
         job(self.garment(study), self.size as usize, self.subject(study), self.simulator, self.repeat)
     }
 }
 
-/// All cells of a study, in the order of its jobs.
-#[must_use]
+/// Order is that of the study's jobs.
 pub fn cells(study: &Study) -> Vec<Cell> {
     let mut cells = Vec::new();
     let number = |index: usize| u32::try_from(index).unwrap_or(u32::MAX);
@@ -251,9 +217,8 @@ fn job(garment: &GarmentEntry, size: usize, subject: &Subject, simulator: Simula
 }
 
 impl JobSpec {
-    /// Returns the job with its inputs as named values, for this program's versions of the stages.
-    ///
-    /// All fields are listed, so that a new field does not compile until somebody decides whether it is an input.
+    /// Returns the job with its inputs as named values, for this program's versions of the stages. All fields are
+    /// listed, so that a new field does not compile until somebody decides whether it is an input.
     pub fn with_inputs(self) -> Self {
         let Self {
             // Results do not depend on names in the study.
@@ -309,7 +274,6 @@ impl JobSpec {
     }
 }
 
-/// Adds the measurements, scan, pose and figures of a subject to inputs, where it has them.
 pub fn subject_inputs(inputs: &mut Inputs, id: &str, Person { measurements: m, scan, pose, figures }: &Person) {
     inputs.set(format!("subject.{id}.sex"), sex_name(m));
     for field in MEASUREMENTS.iter() {
@@ -332,7 +296,7 @@ pub fn subject_inputs(inputs: &mut Inputs, id: &str, Person { measurements: m, s
     }
 }
 
-/// Adds the numbers of a fabric to inputs. Results do not depend on its `source`.
+/// Results do not depend on the `source` of a fabric.
 pub fn fabric_inputs(inputs: &mut Inputs, fabric: &Fabric) {
     for field in FABRIC_NUMBERS.iter() {
         if let Some(number) = field.get(fabric) {

@@ -14,31 +14,23 @@ use geom::units::from_mm;
 use store::files::write_files;
 use store::{Result, StudyError};
 
-/// Contents of a new study.
 pub struct Outline<'a> {
-    /// Name of the study; `None` for that of its folder.
+    /// `None` for that of the folder.
     pub name: Option<&'a str>,
-    /// Simulators that drape every garment.
     pub simulators: &'a [Simulator],
     /// Subjects of the catalogue.
     pub known: Vec<&'a str>,
-    /// Subjects with their measurements.
     pub measured: Vec<(&'a str, Measurements)>,
     /// Subjects with the paths of their scans.
     pub scanned: Vec<(&'a str, String)>,
-    /// Garments in the order in which they are written.
     pub garments: Vec<Worn<'a>>,
-    /// Fabric of all garments.
     pub fabric: &'a str,
-    /// Intended fit of all garments; `None` for the default.
+    /// `None` for the default.
     pub fit: Option<Intended>,
-    /// Outfits of the garments.
     pub outfits: Vec<Layered<'a>>,
 }
 
-/// An outfit of a new study.
 pub struct Layered<'a> {
-    /// Name of the outfit.
     pub name: &'a str,
     /// Names of the garments, the inner first.
     pub layers: Vec<&'a str>,
@@ -46,23 +38,20 @@ pub struct Layered<'a> {
     pub sizes: Option<Vec<&'a str>>,
 }
 
-/// A garment of a new study.
 #[derive(Default)]
 pub struct Worn<'a> {
     /// Name of the style, which becomes the name of the garment.
     pub style: &'a str,
-    /// Path of the seam file.
     pub seams: Option<String>,
     /// Unit of the patterns, where their files name none.
     pub unit: Option<String>,
-    /// Names of the subjects who wear the garment; `None` for all.
+    /// `None` for all.
     pub subjects: Option<Vec<String>>,
     /// Sizes with the paths of their patterns.
     pub sizes: Vec<(String, String)>,
 }
 
 impl Outline<'_> {
-    /// Returns the text of `study.toml`.
     pub fn text(&self) -> String {
         let subjects = self.known.len() + self.measured.len() + self.scanned.len();
         let wearers = |garment: &Worn<'_>| garment.subjects.as_ref().map_or(subjects, Vec::len);
@@ -164,13 +153,9 @@ edge_length_mm = 15         # of the finest cloth mesh: 25 is quick, 10 is fine
     }
 }
 
-/// Name of the study that comes with the program.
 pub const QUICKSTART: &str = "quickstart";
 
-/// Writes the study that comes with the program into a folder, unless a study is there already.
-///
-/// # Errors
-/// When a file cannot be written.
+/// Does nothing where a study is in the folder already.
 pub fn write_quickstart(folder: &Path) -> Result<()> {
     if folder.join("study.toml").exists() {
         return Ok(());
@@ -184,9 +169,6 @@ pub fn write_quickstart(folder: &Path) -> Result<()> {
 
 /// Files of a first study: a `study.toml` to edit, and a drafted style. Its wearers are a subject of the catalogue and
 /// one whose measurements are to be filled in.
-///
-/// # Errors
-/// When the folder has a study already.
 pub fn new_study(folder: &Path, model: Model, fit: Option<Intended>) -> Result<Vec<(String, Vec<u8>)>> {
     let path = folder.join("study.toml");
     if path.exists() {

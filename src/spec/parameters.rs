@@ -13,7 +13,6 @@ use fit::Simulator;
 use sim::{fem, hybrid};
 use store::{InOrigin, Origin, Result, nearest};
 
-/// All simulators.
 pub const SIMULATORS: [Simulator; 2] = [Simulator::Fem, Simulator::Hybrid];
 
 /// Values that differ from the defaults, by name, each in the unit that ends its name.
@@ -22,10 +21,6 @@ pub const SIMULATORS: [Simulator; 2] = [Simulator::Fem, Simulator::Hybrid];
 pub struct Parameters(BTreeMap<String, Value>);
 
 impl Parameters {
-    /// Sets a value.
-    ///
-    /// # Errors
-    /// The name or value, and those that are accepted.
     pub fn set(&mut self, name: &str, value: Value) -> std::result::Result<(), String> {
         let known = defaults();
         let Some(default) = known.get(name) else {
@@ -48,7 +43,6 @@ impl Parameters {
         Ok(())
     }
 
-    /// All names and values, by name.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &Value)> {
         self.0.iter().map(|(name, value)| (name.as_str(), value))
     }
@@ -61,7 +55,6 @@ impl Parameters {
         }
     }
 
-    /// Reads the values back from the inputs of a job.
     pub fn of_inputs(inputs: &Inputs) -> std::result::Result<Self, String> {
         let mut parameters = Self::default();
         for (name, text) in inputs.iter() {
@@ -71,18 +64,10 @@ impl Parameters {
         Ok(parameters)
     }
 
-    /// The parameters of FEM-GS.
-    ///
-    /// # Errors
-    /// When a value does not fit; [`Parameters::set`] refuses such values.
     pub fn fem(&self) -> Result<fem::Params> {
         self.over(Simulator::Fem, &fem::Params::default())
     }
 
-    /// The parameters of Hybrid-GS.
-    ///
-    /// # Errors
-    /// As [`Parameters::fem`].
     pub fn hybrid(&self) -> Result<hybrid::Params> {
         self.over(Simulator::Hybrid, &hybrid::Params::default())
     }
@@ -98,7 +83,6 @@ impl Parameters {
     }
 }
 
-/// Sets the given values in a tree of parameters, converted to SI units.
 fn fill(tree: &mut Value, prefix: &str, given: &BTreeMap<String, Value>) {
     for (key, value) in tree.as_object_mut().into_iter().flatten() {
         let (name, unit) = edge_name(key);
@@ -115,7 +99,6 @@ fn fill(tree: &mut Value, prefix: &str, given: &BTreeMap<String, Value>) {
     }
 }
 
-/// Accepted kind of a value: the kind of its default.
 enum Accepted {
     Number,
     Count,

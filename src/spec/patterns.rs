@@ -17,9 +17,6 @@ pub use pattern::inspect::{FileReport, PieceReport};
 pub use pattern::{MeshQuality, Style};
 
 /// Patterns below a folder, by path: DXF files, and JSON files that are patterns.
-///
-/// # Errors
-/// When a folder or file cannot be read, or the folder has no pattern.
 pub fn drawings(folder: &Path) -> Result<Vec<PathBuf>> {
     let (mut found, mut others) = (Vec::new(), 0);
     let top = folder;
@@ -53,10 +50,7 @@ fn is_drawing(path: &Path) -> Result<bool> {
     Ok(ends_in("dxf"))
 }
 
-/// Reads a style from a pattern and its seam file. `size` picks a size where the pattern holds several.
-///
-/// # Errors
-/// When a file cannot be read or names no unit and none is given, or pattern and seams do not fit each other.
+/// `size` picks a size where the pattern holds several.
 pub fn style(pattern: &Path, seams: Option<&Path>, size: Option<&str>, unit: Option<Unit>) -> Result<Style> {
     let seams = seams.map(SourceFile::read).transpose()?;
     let pattern = SourceFile::read_pattern(pattern)?;
@@ -65,24 +59,21 @@ pub fn style(pattern: &Path, seams: Option<&Path>, size: Option<&str>, unit: Opt
     read_style(&pattern, seams.as_ref(), size.as_deref(), unit)
 }
 
-/// Pieces of one size of a pattern; of the sample size where `size` is `None`.
+/// `size` is `None` for the sample size.
 pub fn pieces(pattern: &SourceFile, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<Piece>> {
     let nest = Nest::read(pattern, unit)?;
     nest.pieces(size.unwrap_or(nest.sample_size()))
 }
 
-/// Pieces of a size, or the reason why they cannot be read.
 pub struct SizePieces {
-    /// Name of the size.
     pub size: String,
-    /// Pieces of the size.
     pub pieces: Result<Vec<Piece>>,
 }
 
 /// Files of a pattern, which may hold several sizes (a nest).
 pub struct Nest {
     files: Vec<PatternFile>,
-    /// Seam allowance of pieces without a sew line, m.
+    /// Seam allowance of pieces without a sew line.
     allowance_m: f64,
 }
 
@@ -93,7 +84,7 @@ impl Nest {
         Ok(Self { files: pattern.parts().iter().map(read).collect::<Result<_>>()?, allowance_m: 0.0 })
     }
 
-    /// Sets the seam allowance, m, of pieces that have no sew line.
+    /// Sets the seam allowance of pieces without a sew line.
     pub fn with_allowance(self, allowance_m: f64) -> Self {
         Self { allowance_m, ..self }
     }
@@ -125,9 +116,6 @@ impl Nest {
     }
 
     /// Name of a size as the files write it. Files that name no size are of any size.
-    ///
-    /// # Errors
-    /// When the files name sizes, and not this one.
     pub fn size_named<'n>(&'n self, size: &'n str) -> Result<&'n str> {
         let sizes = self.sizes();
         match sizes.iter().find(|name| name.eq_ignore_ascii_case(size)) {
@@ -145,12 +133,10 @@ impl Nest {
         self.files.first().map_or(&[], |file| &file.texts)
     }
 
-    /// Name of the sample size.
     pub fn sample_size(&self) -> &str {
         self.graded().map_or("", PatternFile::sample_size)
     }
 
-    /// Remarks on the units of the files.
     pub fn unit_remarks(&self) -> impl Iterator<Item = &str> {
         self.files.iter().filter_map(|file| file.unit_remark.as_deref())
     }
@@ -171,19 +157,16 @@ impl Nest {
         Ok(pieces)
     }
 
-    /// Pieces of all sizes but `size`.
     pub fn others(&self, size: &str) -> Vec<SizePieces> {
         let others = self.sizes().into_iter().filter(|other| !other.eq_ignore_ascii_case(size));
         others.map(|other| SizePieces { size: other.to_owned(), pieces: self.pieces(other) }).collect()
     }
 }
 
-/// Unit of a name such as `mm`.
 pub fn unit_of(name: &str) -> Option<Unit> {
     Unit::ALL.into_iter().find(|unit| unit.as_str() == name)
 }
 
-/// Reads a style as [`style`] does, from files in memory.
 pub fn read_style(
     pattern: &SourceFile,
     seams: Option<&SourceFile>,
@@ -225,18 +208,12 @@ fn check_scale(style: &Style, file: &str) -> Result<()> {
     }
 }
 
-/// Meshes a style at an edge length, m, and measures the quality of the triangles.
-///
-/// # Errors
-/// When the edge length is out of range or the outline cannot be meshed.
 pub fn mesh(style: &Style, edge_length_m: f64) -> Result<(Garment, MeshQuality)> {
     let garment = style.mesh(edge_length_m).origin(Origin::Mesh)?;
     let quality = MeshQuality::of(&garment).ok_or(SpecError::NoTriangles)?;
     Ok((garment, quality))
 }
 
-/// Files of a drafted style: a DXF file for each size, and the seam file.
-#[must_use]
 pub fn drafted(model: Model) -> Vec<(String, Vec<u8>)> {
     model.files()
 }

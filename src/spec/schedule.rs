@@ -3,21 +3,17 @@
 /// Limits of a job, which results do not depend on. A job that exceeds a limit is ended and has failed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Limits {
-    /// Greatest time from the start, s.
+    /// Greatest time from the start.
     pub time_s: Option<f64>,
-    /// Greatest memory, MB (10^6 bytes).
+    /// Megabytes of 10^6 bytes.
     pub memory_mb: Option<u32>,
 }
 
 impl Limits {
-    /// True if any limit is set.
-    #[must_use]
     pub fn is_some(&self) -> bool {
         self.time_s.is_some() || self.memory_mb.is_some()
     }
 
-    /// Returns these limits, completed by those of `others`.
-    #[must_use]
     pub fn or(self, others: Self) -> Self {
         Self { time_s: self.time_s.or(others.time_s), memory_mb: self.memory_mb.or(others.memory_mb) }
     }
@@ -26,10 +22,9 @@ impl Limits {
 /// Schedule of a job, which results do not depend on.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Schedule {
-    /// Priority in the queue; jobs of greater priority run earlier.
+    /// Jobs of greater priority run earlier.
     pub priority: i64,
     /// Garments that must have results first: of their jobs on the same subject, by the same simulator.
     pub after: Vec<String>,
-    /// Limits of time and memory.
     pub limits: Limits,
 }

@@ -7,7 +7,6 @@ use crate::entry::{Field, Sheet};
 use geom::units::{GRAVITY, from_mm};
 use sim::Fabric;
 
-/// 1 gf, N.
 const GRAM_FORCE_N: f64 = 1e-3 * GRAVITY;
 
 /// Secant modulus, N/m: membrane stress divided by Green strain, for a strip that a force per width, N/m, stretches by

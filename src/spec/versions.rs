@@ -13,7 +13,7 @@ const MEASURE_VERSION: u32 = 1;
 /// ([`default_hash`](parameters::default_hash)).
 const SIM_VERSION: u32 = 48;
 
-/// Spacing of the distance field's nodes, m: the 99th percentile of its error is then about 0.1 mm.
+/// Spacing of the distance field's nodes: the 99th percentile of its error is then about 0.1 mm.
 pub const FIELD_SPACING_M: f64 = 0.005;
 
 /// Inputs of every job besides those from the study: versions and parameters of the stages.

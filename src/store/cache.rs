@@ -20,9 +20,7 @@ use geom::DistanceField;
 
 /// A product that can be stored.
 pub trait Artefact: Sized + Send + Sync + 'static {
-    /// Returns the product as bytes, to be stored.
     fn encode(&self) -> Result<Vec<u8>>;
-    /// Reads a product from the bytes of [`Artefact::encode`].
     fn decode(bytes: &[u8]) -> std::result::Result<Self, String>;
 }
 
@@ -44,18 +42,11 @@ macro_rules! json_artefact {
 
 json_artefact!(sim::Drape);
 
-/// Returns the JSON of an artefact.
-///
-/// # Errors
-/// When a number is not finite.
+/// Fails where a number is not finite.
 pub fn to_json(artefact: &impl serde::Serialize) -> Result<Vec<u8>> {
     serde_json::to_vec(artefact).origin(Origin::Store)
 }
 
-/// Reads an artefact from its JSON.
-///
-/// # Errors
-/// The place in the text that does not fit.
 pub fn from_json<T: serde::de::DeserializeOwned>(bytes: &[u8]) -> std::result::Result<T, String> {
     serde_json::from_slice(bytes).map_err(|error| error.to_string())
 }
@@ -73,11 +64,9 @@ impl Artefact for DistanceField {
 /// One product that a job used.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Used {
-    /// Stage that made the product.
     pub stage: StageKind,
-    /// Hash of the stage's inputs, hex.
+    /// Hex hash of the stage's inputs.
     pub hash: String,
-    /// True where the cache had the product.
     pub was_cached: bool,
 }
 
@@ -104,16 +93,11 @@ pub struct Cache {
 }
 
 impl Cache {
-    /// Returns the cache of a database, with nothing in memory yet.
-    #[must_use]
     pub fn new(database: PathBuf) -> Self {
         Self { path: database, slots: Mutex::default(), filled: Mutex::default() }
     }
 
     /// Returns the product of a stage: from memory, from the database, or else from `make`, and then stores it.
-    ///
-    /// # Errors
-    /// Those of `make`, and of the database.
     pub fn get<T: Artefact>(
         &self,
         stage: StageKind,
@@ -160,7 +144,7 @@ impl Cache {
     }
 }
 
-/// Locks a mutex. A panic of another thread that held it leaves at most an empty slot behind.
+/// A panic of another thread that held the lock leaves at most an empty slot behind.
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
@@ -175,8 +159,8 @@ pub(crate) fn load(connection: &Connection, hash: &str) -> Result<Option<Vec<u8>
     }))
 }
 
-/// Stores bytes under their hash, compressed: most of a distance field is far from the body and constant. Replaces
-/// bytes under this hash that the program can no longer read.
+/// Compresses the bytes: most of a distance field is far from the body and constant. Replaces bytes under this hash
+/// that the program can no longer read.
 fn save(connection: &Connection, stage: StageKind, hash: &str, bytes: &[u8]) -> Result<()> {
     let mut packer = ZlibEncoder::new(Vec::new(), Compression::fast());
     packer.write_all(bytes).origin(Origin::Store)?;
@@ -186,10 +170,6 @@ fn save(connection: &Connection, stage: StageKind, hash: &str, bytes: &[u8]) -> 
     Ok(())
 }
 
-/// Returns a stored product.
-///
-/// # Errors
-/// When it is missing or cannot be read.
 pub fn stored<T: Artefact>(connection: &Connection, hash: &str) -> Result<T> {
     let fail = |message: &str| StudyError::Artefact { hash: hash.to_owned(), message: message.to_owned() };
     let bytes = load(connection, hash)?.ok_or_else(|| fail("it is not in the database"))?;
@@ -217,7 +197,6 @@ mod tests {
         ((*product).clone(), used.was_cached)
     }
 
-    /// The cache of a new database.
     fn new_cache(path: &Path) -> Cache {
         connection::open(path, Access::Create).expect("a new database");
         Cache::new(path.to_owned())

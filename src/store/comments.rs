@@ -11,15 +11,11 @@ use crate::transaction::{now_ms, write};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Side {
-    /// From the front.
     Front,
-    /// From the side.
     Side,
-    /// From behind.
     Back,
 }
 
-/// Weight of a comment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
@@ -31,7 +27,6 @@ pub enum Severity {
     Critical,
 }
 
-/// State of a comment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum State {
@@ -47,17 +42,12 @@ pub enum State {
 macro_rules! named {
     ($type:ident { $($variant:ident = $name:literal),+ }) => {
         impl $type {
-            /// All, in order.
             pub const ALL: &'static [Self] = &[$(Self::$variant),+];
 
-            /// Name in the database.
-            #[must_use]
             pub const fn as_str(self) -> &'static str {
                 match self { $(Self::$variant => $name),+ }
             }
 
-            /// The one of a name. `None` if there is none.
-            #[must_use]
             pub fn named(name: &str) -> Option<Self> {
                 Self::ALL.iter().copied().find(|one| one.as_str() == name)
             }
@@ -72,45 +62,35 @@ named!(State { Open = "open", Met = "met", Closed = "closed" });
 /// Content of a comment.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Remark {
-    /// Side from which it is seen.
     pub side: Side,
     /// Place on the garment, such as `hip`.
     pub place: String,
-    /// Finding, in words.
     pub said: String,
-    /// Weight.
     pub severity: Severity,
-    /// Likely cause; empty if not known.
+    /// Empty if not known.
     pub cause: String,
-    /// Action to take; empty if none is known.
+    /// Empty if none is known.
     pub action: String,
     /// Measured quantity by which a later round finds it again; `None` for a fitter's own comment.
     pub quantity: Option<String>,
 }
 
-/// A comment with its history.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Comment {
-    /// Name of the garment in the study.
     pub garment: String,
-    /// Name of the subject in the study.
     pub subject: String,
-    /// Size that was fitted in the round.
     pub size: String,
     /// Round that asked first.
     pub round: i64,
     /// Number of the callout, through all rounds of the garment on the subject.
     pub number: i64,
-    /// Content.
     #[serde(flatten)]
     pub remark: Remark,
-    /// State.
     pub status: State,
-    /// Round that met it.
     pub met_in: Option<i64>,
-    /// Name of who is to act; empty if nobody.
+    /// Empty if nobody is to act.
     pub owner: String,
-    /// Name of who signed the round off; `None` if nobody did.
+    /// Person who signed the round off.
     pub signed_by: Option<String>,
     /// True if somebody worded it: later rounds leave its words.
     pub is_worded: bool,
@@ -119,41 +99,29 @@ pub struct Comment {
 /// Last round of a fitting.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Round {
-    /// Name of the garment in the study.
     pub garment: String,
-    /// Name of the subject in the study.
     pub subject: String,
-    /// Number of the round, from 1.
+    /// Counts from 1.
     pub round: i64,
-    /// Size that was fitted.
     pub size: String,
-    /// Name of who signed it off; `None` if nobody did.
     pub signed_by: Option<String>,
 }
 
 /// A garment on a subject, of a study.
 #[derive(Clone, Copy, Debug)]
 pub struct Fitting<'a> {
-    /// Name of the study.
     pub study: &'a str,
-    /// Name of the garment in the study.
     pub garment: &'a str,
-    /// Name of the subject in the study.
     pub subject: &'a str,
 }
 
 /// Change of a comment. `None` leaves a field as it is.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Edit {
-    /// New state.
     pub status: Option<State>,
-    /// New weight.
     pub severity: Option<Severity>,
-    /// New words.
     pub said: Option<String>,
-    /// New action.
     pub action: Option<String>,
-    /// New owner.
     pub owner: Option<String>,
     /// True if later rounds leave the words, false if they do not; `None` leaves new words alone, and other words as
     /// they are.
@@ -162,7 +130,6 @@ pub struct Edit {
 
 impl Edit {
     /// The change that takes this one of a comment back.
-    #[must_use]
     pub fn before(&self, comment: &Comment) -> Self {
         let remark = &comment.remark;
         Self {
@@ -176,10 +143,7 @@ impl Edit {
     }
 }
 
-/// Comments of a study, by garment, subject and number.
-///
-/// # Errors
-/// When the database cannot be read.
+/// Sorted by garment, subject and number.
 pub fn comments(store: &Store, study: &str) -> Result<Vec<Comment>> {
     let sql =
         "SELECT garment, subject, size, round, number, side, place, said, severity, cause, action, quantity, status,
@@ -214,10 +178,7 @@ fn comment(row: &Row<'_>) -> rusqlite::Result<Comment> {
     })
 }
 
-/// Last round of each fitting of a study, by garment and subject.
-///
-/// # Errors
-/// When the database cannot be read.
+/// Last round of each fitting, by garment and subject.
 pub fn last_rounds(store: &Store, study: &str) -> Result<Vec<Round>> {
     // The other columns are those of the row with the greatest round.
     let sql = "SELECT garment, subject, max(round), size, signed_by FROM fit_round JOIN study USING (study_id)
@@ -235,12 +196,9 @@ pub fn last_rounds(store: &Store, study: &str) -> Result<Vec<Round>> {
     Ok(statement.query_map([study], round)?.collect::<rusqlite::Result<_>>()?)
 }
 
-/// Begins the next round of a fitting in a size, with what was measured. An open comment of an earlier round whose
-/// quantity is measured no more is met; one that is measured again has the new words, unless somebody worded it. Returns the number of the round,
-/// `None` where nothing has changed since the last one: `basis` is the same.
-///
-/// # Errors
-/// When the database cannot be written.
+/// Begins the next round of a fitting with what was measured. An open comment of an earlier round whose quantity is no
+/// longer measured is met; one that is measured again has the new words, unless somebody worded it. Returns the number
+/// of the round; `None` where `basis` is that of the last round.
 pub fn begin_round(
     store: &mut Store,
     fitting: Fitting<'_>,
@@ -296,10 +254,8 @@ pub fn begin_round(
     Ok(Some(round))
 }
 
-/// Adds a fitter's comment to the last round of a fitting. Returns its number.
-///
-/// # Errors
-/// [`StudyError::NotFound`] before the first round. Others when the database cannot be written.
+/// Adds a fitter's comment to the last round and returns its number. Fails with [`StudyError::NotFound`] before the
+/// first round.
 pub fn add(store: &mut Store, fitting: Fitting<'_>, remark: &Remark) -> Result<i64> {
     let transaction = write(store.writer()?)?;
     let study_id = study_id(&transaction, fitting.study)?;
@@ -309,10 +265,6 @@ pub fn add(store: &mut Store, fitting: Fitting<'_>, remark: &Remark) -> Result<i
     Ok(number)
 }
 
-/// Changes a comment, given by its number.
-///
-/// # Errors
-/// [`StudyError::NotFound`] when the fitting has no such comment. Others when the database cannot be written.
 pub fn edit(store: &mut Store, fitting: Fitting<'_>, number: i64, edit: &Edit) -> Result<()> {
     let transaction = write(store.writer()?)?;
     let study_id = study_id(&transaction, fitting.study)?;
@@ -347,10 +299,7 @@ pub fn edit(store: &mut Store, fitting: Fitting<'_>, number: i64, edit: &Edit) -
     Ok(transaction.commit()?)
 }
 
-/// Signs the last round of a fitting off. Returns the number of the round.
-///
-/// # Errors
-/// [`StudyError::NotFound`] before the first round. Others when the database cannot be written.
+/// Signs the last round off and returns its number. Fails with [`StudyError::NotFound`] before the first round.
 pub fn sign(store: &mut Store, fitting: Fitting<'_>, by: &str) -> Result<i64> {
     let transaction = write(store.writer()?)?;
     let study_id = study_id(&transaction, fitting.study)?;

@@ -10,25 +10,23 @@ use crate::error::{Result, StudyError, database_error};
 use crate::functions::add_functions;
 use crate::schema::{LATEST, check_version, migrate};
 
-/// Time that a statement waits while another process writes, s, where `TOILE_PATIENCE_S` sets no other.
+/// Time that a statement waits while another process writes, where `TOILE_PATIENCE_S` sets no other.
 const PATIENCE_S: f64 = 20.0;
 
-/// Time that a statement waits while another process writes.
 fn patience() -> Duration {
     let given = std::env::var("TOILE_PATIENCE_S").ok().and_then(|text| text.parse::<f64>().ok());
     Duration::try_from_secs_f64(given.unwrap_or(PATIENCE_S)).unwrap_or(Duration::from_secs_f64(PATIENCE_S))
 }
 
-/// Use of a connection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Access {
-    /// Reads only; the file must exist.
+    /// File must exist.
     Read,
-    /// Reads and writes, and makes the file where there is none.
+    /// Makes the file where there is none.
     Create,
-    /// Reads and writes; a commit is on disk when it returns. The file must exist.
+    /// Commits are on disk when they return. The file must exist.
     Write,
-    /// Reads and writes; a power cut may undo whole transactions (progress, heartbeats). The file must exist.
+    /// Lets a power cut undo whole transactions (progress, heartbeats). The file must exist.
     Volatile,
 }
 

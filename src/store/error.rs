@@ -6,40 +6,19 @@ use std::path::{Path, PathBuf};
 use rusqlite::ErrorCode;
 use sim::SimError;
 
-/// An error of the store, the study file, the queue or a stage.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StudyError {
-    /// The database refused a statement, or its file is damaged or locked.
     #[error("database: {}", database_error(.0))]
     Database(#[from] rusqlite::Error),
-    /// A database file could not be opened.
     #[error("{}: cannot open this database: {reason}", path.display())]
-    Open {
-        /// Path of the file that was to be opened.
-        path: PathBuf,
-        /// Reason why it does not open.
-        reason: String,
-    },
-    /// The database was written by a newer program.
+    Open { path: PathBuf, reason: String },
     #[error("database has schema version {found}, this program knows versions up to {known}; use the newer program")]
-    TooNew {
-        /// Schema version of the database.
-        found: i64,
-        /// Newest version known.
-        known: i64,
-    },
-    /// An action that writes, on a workspace opened read-only.
+    TooNew { found: i64, known: i64 },
     #[error("the workspace is open read-only; start without --readonly to change it")]
     Readonly,
-    /// A file could not be read or written.
     #[error("{}: {source}", path.display())]
-    Io {
-        /// Path of the file.
-        path: PathBuf,
-        /// Error of the operating system.
-        source: std::io::Error,
-    },
+    Io { path: PathBuf, source: std::io::Error },
     /// Everything that is wrong with a study file.
     #[error("{}", Problem::listing(.0))]
     File(Vec<Problem>),
@@ -48,7 +27,6 @@ pub enum StudyError {
     Refused {
         /// Part of the catalogue, such as `subject`.
         what: &'static str,
-        /// Name of the entry.
         name: String,
         /// One problem for each value.
         problems: Vec<String>,
@@ -61,83 +39,48 @@ pub enum StudyError {
         stored.display()
     )]
     HomeTaken {
-        /// Name of the study.
         name: String,
         /// The study file that the results are kept for.
         stored: PathBuf,
-        /// The study file that was found.
         found: PathBuf,
     },
-    /// A new entry under a name that is taken.
     #[error("there is a {what} `{name}` already; edit it, or take another name")]
-    Exists {
-        /// Part of the catalogue, such as `subject`.
-        what: &'static str,
-        /// Name of the entry.
-        name: String,
-    },
-    /// Something was asked for by a name or number that does not exist.
+    Exists { what: &'static str, name: String },
     #[error("no {what} `{name}`{}", suggestion(.known, .name))]
     NotFound {
         /// Kind of thing (`job`, `study`, ...).
         what: &'static str,
-        /// The name or number that was asked for.
         name: String,
-        /// Names that exist, for a suggestion.
         known: Vec<String>,
     },
-    /// A choice among several that the command does not name.
     #[error("which {what}? --{what} says it; there are: {}", .known.join(", "))]
     Unsaid {
         /// Kind of thing, and the flag that names it.
         what: &'static str,
-        /// Names that exist.
         known: Vec<String>,
     },
     /// An entry of the catalogue that was removed; it stays stored for the results that use it.
     #[error("no {what} `{name}`; {}", hidden_hint(.what))]
-    Hidden {
-        /// Part of the catalogue.
-        what: &'static str,
-        /// Name of the entry.
-        name: String,
-    },
-    /// A part of the program refused its input.
+    Hidden { what: &'static str, name: String },
     #[error("{origin}: {source}")]
-    Refusal {
-        /// Part of the program.
-        origin: Origin,
-        /// Error of that part, such as a [`SimError`].
-        source: Box<dyn std::error::Error + Send + Sync>,
-    },
+    Refusal { origin: Origin, source: Box<dyn std::error::Error + Send + Sync> },
     /// Stored bytes are not what the program wrote.
     #[error("artefact {hash}: {message}")]
-    Artefact {
-        /// Hash under which the bytes are stored.
-        hash: String,
-        /// Problem of the bytes.
-        message: String,
-    },
+    Artefact { hash: String, message: String },
     /// A job failed on another machine.
     #[error("{message}")]
-    Elsewhere {
-        /// Message of that machine.
-        message: String,
-    },
-    /// The run was asked to stop.
+    Elsewhere { message: String },
     #[error("interrupted")]
     Interrupted,
 }
 
 impl StudyError {
-    /// Returns the closure that gives an error of the operating system its path.
     pub fn io(path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.into();
         move |source| Self::Io { path, source }
     }
 
     /// Wraps the error of a simulator; [`Self::Interrupted`] where the simulator was asked to stop.
-    #[must_use]
     pub fn sim(error: SimError) -> Self {
         match error {
             SimError::Cancelled => Self::Interrupted,
@@ -145,7 +88,6 @@ impl StudyError {
         }
     }
 
-    /// The error of a part of the program, with its origin.
     pub fn refused(origin: Origin, source: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> Self {
         Self::Refusal { origin, source: source.into() }
     }
@@ -154,49 +96,32 @@ impl StudyError {
 /// Part of the program that an error comes from; the message begins with the name of the part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// Alterations.
     Alter,
-    /// Audits of a wardrobe.
     Audit,
-    /// Bodies and scans.
     Body,
-    /// Chances of fit.
     Chance,
     /// Distance fields.
     Field,
-    /// Graded sizes.
     Grade,
     /// A job's process.
     Job,
     /// Limits of time and memory.
     Limit,
-    /// Measuring a drape.
     Measure,
     /// Results merged from elsewhere.
     Merge,
-    /// Meshes of garments.
     Mesh,
-    /// A fault of the program.
     Panic,
-    /// Patterns and their seams.
     Pattern,
-    /// The queue.
     Queue,
-    /// Pictures.
     Render,
-    /// Reports.
     Report,
     /// A run that is repeated.
     Rerun,
-    /// A result file.
     Result,
-    /// Simulators.
     Sim,
-    /// The cluster's scheduler.
     Slurm,
-    /// Queries.
     Sql,
-    /// The database and its artefacts.
     Store,
 }
 
@@ -231,10 +156,6 @@ impl fmt::Display for Origin {
 
 /// Names the part of the program that an error comes from.
 pub trait InOrigin<T> {
-    /// Returns the value, or a [`StudyError::Refusal`] of this origin.
-    ///
-    /// # Errors
-    /// The error, with its origin.
     fn origin(self, origin: Origin) -> Result<T>;
 }
 
@@ -244,43 +165,30 @@ impl<T, E: Into<Box<dyn std::error::Error + Send + Sync>>> InOrigin<T> for std::
     }
 }
 
-/// Error of a stage, with the file that it read.
 #[derive(Debug, thiserror::Error)]
 #[error("{file}: {source}")]
 pub struct InFile<E: std::error::Error + 'static> {
-    /// Name of the file, as messages show it.
     pub file: String,
-    /// Error of the stage that read it.
     pub source: E,
 }
 
-/// Refusal of a file or of its name.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FileError {
-    /// A folder that is no pattern.
     #[error(
         "{}: a folder with no DXF file and {patterns} patterns as JSON; accepted: DXF files, or one pattern as JSON",
         folder.display()
     )]
     NoPattern {
-        /// Folder without a pattern.
         folder: PathBuf,
         /// Number of its JSON files that are patterns.
         patterns: usize,
     },
     /// A file to be written whose name leads out of its folder.
     #[error("{}: file `{name}` would not lie in it; accepted: names below the folder", folder.display())]
-    Outside {
-        /// The folder.
-        folder: PathBuf,
-        /// Name of the file.
-        name: String,
-    },
-    /// A file to be written in a format that is not accepted.
+    Outside { folder: PathBuf, name: String },
     #[error("{}: found {found}; accepted: {accepted}", path.display())]
     Format {
-        /// The file.
         path: PathBuf,
         /// Ending of the file's name, in words.
         found: String,
@@ -289,20 +197,16 @@ pub enum FileError {
     },
     /// A name that no saved query can have.
     #[error("`{name}` is no name of a query; accepted: letters, digits, - _ . and blanks")]
-    QueryName {
-        /// The name.
-        name: String,
-    },
+    QueryName { name: String },
 }
 
 /// One error in a study file, with its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
-    /// Path of the file, as messages show it.
     pub file: PathBuf,
-    /// Line, from 1.
+    /// Counts from 1.
     pub line: Option<usize>,
-    /// Column of the line, in characters from 1.
+    /// Counts characters from 1.
     pub column: Option<usize>,
     /// Value that was found, and the values that are accepted.
     pub message: String,
@@ -324,18 +228,16 @@ impl Problem {
         Self { file: file.to_owned(), line: None, column: None, message: message.into() }
     }
 
-    /// A problem of a line of a file.
     pub fn at(file: &Path, line: usize, message: impl Into<String>) -> Self {
         Self { line: Some(line), ..Self::of(file, message) }
     }
 
-    /// All problems, one a line.
+    /// One problem a line.
     pub fn listing(problems: &[Self]) -> String {
         problems.iter().map(Self::to_string).collect::<Vec<_>>().join("\n")
     }
 }
 
-/// Result of a study operation.
 pub type Result<T> = std::result::Result<T, StudyError>;
 
 /// Message of SQLite, with a remedy.

@@ -39,15 +39,10 @@ mod base64_bytes {
 
 impl SourceFile {
     /// True if the file is a pattern that holds its own seams, as GarmentCode JSON does. Judged by the contents.
-    #[must_use]
     pub fn holds_seams(&self) -> bool {
         !self.name.ends_with('/') && source::kind(&self.bytes) == Kind::GarmentCode
     }
 
-    /// Reads a file.
-    ///
-    /// # Errors
-    /// When it cannot be read.
     pub fn read(path: &Path) -> Result<Self> {
         let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
         Ok(Self { name: name_of(path), bytes: bytes.into() })
@@ -55,9 +50,6 @@ impl SourceFile {
 
     /// Reads a pattern: a file, or all DXF files of a folder, sorted by name. A folder without DXF files must have
     /// exactly one JSON file that is a pattern, under any name.
-    ///
-    /// # Errors
-    /// When a file cannot be read, or a folder without DXF files has no or several patterns as JSON.
     pub fn read_pattern(path: &Path) -> Result<Self> {
         if !path.is_dir() {
             return Self::read(path);
@@ -87,8 +79,6 @@ impl SourceFile {
         Ok(Self::folder(&name_of(path), &parts))
     }
 
-    /// Folder of a name with some files.
-    #[must_use]
     pub fn folder(name: &str, parts: &[Self]) -> Self {
         let mut bytes = Vec::new();
         for part in parts {
@@ -98,8 +88,7 @@ impl SourceFile {
         Self { name: format!("{name}/"), bytes: bytes.into() }
     }
 
-    /// Files that this value holds: itself, or those of the folder.
-    #[must_use]
+    /// File itself, or those of the folder.
     pub fn parts(&self) -> Vec<Self> {
         if !self.name.ends_with('/') {
             return vec![self.clone()];
@@ -118,7 +107,6 @@ impl SourceFile {
     }
 
     /// BLAKE3 of the contents, hex.
-    #[must_use]
     pub fn hash(&self) -> String {
         blake3::hash(&self.bytes).to_hex().to_string()
     }
@@ -130,16 +118,12 @@ fn name_of(path: &Path) -> String {
     named.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// The bytes before and after the first zero byte.
 fn split_zero(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     let at = bytes.iter().position(|&byte| byte == 0)?;
     Some((&bytes[..at], &bytes[at + 1..]))
 }
 
-/// Format of a file to be written: that of the accepted endings which its name has.
-///
-/// # Errors
-/// [`FileError::Format`] when the name ends otherwise.
+/// Format by the ending of the name.
 pub fn kind_of<T: Copy>(path: &Path, accepted: &[(&str, T)]) -> std::result::Result<T, FileError> {
     let extension = path.extension().unwrap_or_default().to_string_lossy();
     if let Some((_, kind)) = accepted.iter().find(|(ending, _)| extension.eq_ignore_ascii_case(ending)) {
@@ -155,9 +139,6 @@ pub fn kind_of<T: Copy>(path: &Path, accepted: &[(&str, T)]) -> std::result::Res
 }
 
 /// Makes a folder and tries to write there, so that a run fails at once and not after hours of work.
-///
-/// # Errors
-/// When the folder cannot be made, or no file can be made in it.
 pub fn make_folder(folder: &Path) -> Result<()> {
     std::fs::create_dir_all(folder).map_err(StudyError::io(folder))?;
     let probe = folder.join(format!(".toile-{}", std::process::id()));
@@ -165,10 +146,7 @@ pub fn make_folder(folder: &Path) -> Result<()> {
     std::fs::remove_file(&probe).map_err(StudyError::io(&probe))
 }
 
-/// Checks the name of a study: its reports, logs and jobs lie in a folder or file of that name.
-///
-/// # Errors
-/// The names that are accepted, in words.
+/// Reports, logs and jobs of a study lie in a folder or file of its name. The error tells the accepted names.
 pub fn check_study_name(name: &str) -> std::result::Result<(), String> {
     let is_odd = |letter: char| letter.is_control() || matches!(letter, '/' | '\\');
     let is_one = !name.trim().is_empty() && name != "." && name != ".." && !name.chars().any(is_odd);
@@ -180,16 +158,11 @@ pub fn check_study_name(name: &str) -> std::result::Result<(), String> {
 
 /// Name of the folder or file of a study: the study's own name where [`check_study_name`] accepts it, else a safe one.
 /// A name in a database from elsewhere may be one that is not accepted.
-#[must_use]
 pub fn study_folder(study: &str) -> String {
     if check_study_name(study).is_ok() { study.to_owned() } else { file_part(study) }
 }
 
-/// Writes files into a folder and returns their paths. Makes the folder where it is missing.
-///
-/// # Errors
-/// When the folder or a file cannot be written. When a file's name leads out of the folder, and then nothing is
-/// written.
+/// Returns the paths. Makes the folder where it is missing. Writes nothing where a file's name leads out of the folder.
 pub fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<Vec<PathBuf>> {
     let is_within = |name: &str| Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
     if let Some((name, _)) = files.iter().find(|(name, _)| name.is_empty() || !is_within(name)) {
@@ -208,7 +181,6 @@ pub fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<Vec<Pat
 }
 
 /// Text as one word of a shell's command line.
-#[must_use]
 pub fn word(text: &str) -> String {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "_-./+@%".contains(letter);
     if !text.is_empty() && text.chars().all(is_plain) {

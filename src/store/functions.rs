@@ -3,7 +3,6 @@
 use rusqlite::functions::{Aggregate, Context, FunctionFlags};
 use rusqlite::{Connection, Error};
 
-/// Adds the statistics to a connection.
 pub(crate) fn add_functions(connection: &Connection) -> rusqlite::Result<()> {
     let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC;
     connection.create_aggregate_function("median", 1, flags, Quantile)?;
@@ -14,7 +13,6 @@ pub(crate) fn add_functions(connection: &Connection) -> rusqlite::Result<()> {
 /// `quantile(x, p)`: linear between order statistics; `median(x)` is p = 1/2.
 struct Quantile;
 
-/// Numbers of a group and the share p.
 struct Sample {
     values: Vec<f64>,
     share: f64,

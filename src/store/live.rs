@@ -12,7 +12,6 @@ const NOBODY: i64 = 0;
 /// The garment of a running job at one moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveFrame {
-    /// The job.
     pub job: JobId,
     /// Position of every vertex of the present mesh, m; meshes grow finer as a simulation goes on.
     pub positions: Vec<V3>,
@@ -27,14 +26,13 @@ pub struct Live {
 }
 
 impl Live {
-    /// Watches a job; `None` ends watching.
+    /// `None` ends watching.
     pub fn watch(&self, job: Option<JobId>) {
         self.watched.store(job.map_or(NOBODY, |job| job.0), Ordering::Relaxed);
         drop(self.take());
     }
 
     /// Takes the frame that arrived since the last call.
-    #[must_use]
     pub fn take(&self) -> Option<LiveFrame> {
         self.slot().take()
     }
@@ -44,12 +42,11 @@ impl Live {
         self.watched.load(Ordering::Relaxed) == job.0 && self.slot().is_none()
     }
 
-    /// Offers the present shape of a job's garment as the next frame.
     pub fn show(&self, job: JobId, positions: &[V3]) {
         *self.slot() = Some(LiveFrame { job, positions: positions.to_vec() });
     }
 
-    /// Locks the frame. A frame is a plain value, so it is whole even after a panic of another thread.
+    /// A frame is a plain value, so it is whole even after a panic of another thread.
     fn slot(&self) -> std::sync::MutexGuard<'_, Option<LiveFrame>> {
         self.frame.lock().unwrap_or_else(PoisonError::into_inner)
     }

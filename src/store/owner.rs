@@ -15,7 +15,6 @@ const LEASE: Duration = Duration::from_secs(60);
 pub struct Owner(String);
 
 impl Owner {
-    /// A name for a new run of this process.
     #[allow(clippy::new_without_default, reason = "each is another one")]
     pub fn new() -> Self {
         static RUNS: AtomicU64 = AtomicU64::new(0);
@@ -24,7 +23,6 @@ impl Owner {
         Self(format!("{}/{}/{pid}/{start}/{}", host(), boot(), RUNS.fetch_add(1, Ordering::Relaxed)))
     }
 
-    /// The owner as the column `owner` stores it.
     pub fn as_str(&self) -> &str {
         &self.0
     }
@@ -36,19 +34,16 @@ impl fmt::Display for Owner {
     }
 }
 
-/// A process that runs jobs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Runner {
     /// The process in words, with its machine.
     pub name: String,
     /// Number of the process, if it is one of this machine.
     pub pid: Option<u32>,
-    /// Number of jobs that it runs.
     pub jobs: usize,
 }
 
 impl Runner {
-    /// The process of an owner.
     pub(crate) fn new(owner: &str, jobs: usize) -> Self {
         let mut parts = owner.split('/');
         let is_here = parts.next() == Some(&host());
@@ -57,7 +52,6 @@ impl Runner {
     }
 }
 
-/// Returns an owner in words.
 pub(crate) fn describe(owner: &str) -> String {
     let mut parts = owner.split('/');
     match (parts.next(), parts.nth(1)) {
@@ -98,7 +92,6 @@ impl Watch {
     }
 }
 
-/// Name of this machine.
 pub fn host() -> String {
     let kernel = std::fs::read_to_string("/proc/sys/kernel/hostname").ok().filter(|name| !name.trim().is_empty());
     let name = kernel.or_else(|| std::env::var("HOSTNAME").ok()).unwrap_or_else(|| "localhost".into());

@@ -17,25 +17,19 @@ use crate::transaction::{lightly, now_ms};
 /// Number of lost processes after which a job fails, since the job itself might be what ends them.
 const MAX_LOST: u32 = 10;
 
-/// State of a job in the queue.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct State {
-    /// Status of the job.
     pub status: Status,
-    /// Number of times that the job was started.
     pub attempts: u32,
-    /// Name of the run that works on the job; `Some` exactly while the job runs.
+    /// Run that works on the job; `Some` exactly while the job runs.
     pub owner: Option<String>,
 }
 
-/// Event that can happen to a job.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Event<'a> {
-    /// A worker of the named run takes the job.
+    /// Worker of the named run takes the job.
     Claim(&'a str),
-    /// The owner has a result.
     Finish {
-        /// Name of the run that had the job.
         owner: &'a str,
         /// True where the cloth came to rest.
         converged: bool,
@@ -46,13 +40,11 @@ pub enum Event<'a> {
     Release(&'a str),
     /// The owner is dead.
     Lose,
-    /// The user cancels the job.
     Cancel,
-    /// The user queues the job again.
     Retry,
 }
 
-/// Returns the state after an event; `None` where the event does not apply.
+/// `None` where the event does not apply.
 pub fn next(state: &State, event: &Event<'_>) -> Option<State> {
     use Status::{Cancelled, Done, Failed, NotConverged, Queued, Running};
     let ended = |status| Some(State { status, owner: None, ..state.clone() });
@@ -75,8 +67,7 @@ pub fn next(state: &State, event: &Event<'_>) -> Option<State> {
     }
 }
 
-/// Applies an event to a stored job and returns its new state. Where the event does not apply, returns `None` and
-/// changes nothing.
+/// Returns the new state. Where the event does not apply, returns `None` and changes nothing.
 pub fn apply(
     transaction: &Transaction<'_>,
     id: JobId,
@@ -130,7 +121,6 @@ pub fn set_needs(transaction: &Transaction<'_>, id: JobId, needs: &[JobId]) -> R
     Ok(())
 }
 
-/// The stored state of a job.
 fn load(connection: &Connection, id: JobId) -> Result<State> {
     let state = connection
         .prepare_cached("SELECT status, attempts, owner FROM job WHERE job_id = ?")?
@@ -139,7 +129,6 @@ fn load(connection: &Connection, id: JobId) -> Result<State> {
     state.ok_or_else(|| StudyError::NotFound { what: "job", name: id.to_string(), known: vec![] })
 }
 
-/// Returns the jobs whose results a job waits for.
 pub fn needs(connection: &Connection, id: JobId) -> Result<Vec<JobId>> {
     let mut statement = connection.prepare_cached("SELECT needs FROM job_need WHERE job_id = ? ORDER BY needs")?;
     let needs = statement.query_map([id.0], |row| row.get(0).map(JobId))?.collect::<rusqlite::Result<_>>()?;
@@ -204,11 +193,8 @@ pub fn take_over(transaction: &Transaction<'_>, watch: &mut Watch) -> Result<usi
     Ok(lost.len())
 }
 
-/// Puts the jobs of runs that were interrupted back into the queue, as [`take_over`] does; takes the lock for writing
-/// only where there are some. Returns their number, 0 where the database is open for reading only.
-///
-/// # Errors
-/// When the database cannot be read or written.
+/// Does as [`take_over`], but takes the lock for writing only where there are such jobs. Returns 0 where the database
+/// is open for reading only.
 pub fn recover(store: &mut Store, watch: &mut Watch) -> Result<usize> {
     if store.is_readonly() || lost(&store.reader, watch)?.is_empty() {
         return Ok(0);
@@ -219,7 +205,6 @@ pub fn recover(store: &mut Store, watch: &mut Watch) -> Result<usize> {
 /// A job that is stored as running and whose process has ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Interrupted {
-    /// Number of the job.
     pub job: JobId,
     /// The process in words, with its machine.
     pub process: String,
@@ -233,18 +218,11 @@ impl fmt::Display for Interrupted {
 
 /// Jobs whose process has ended: [`recover`] puts them back into the queue, where the database may be written. Of
 /// another machine's process nobody can tell at once.
-///
-/// # Errors
-/// When the database cannot be read.
 pub fn interrupted(store: &Store) -> Result<Vec<Interrupted>> {
     let lost = lost(&store.reader, &mut Watch::default())?.into_iter();
     Ok(lost.map(|(job, owner)| Interrupted { job, process: owner::describe(&owner) }).collect())
 }
 
-/// Processes that run jobs of a study now.
-///
-/// # Errors
-/// When the database cannot be read.
 pub fn runners(store: &Store, study: &str) -> Result<Vec<Runner>> {
     let sql = "SELECT owner, count(*) FROM job JOIN study USING (study_id)
         WHERE study.name = ? AND status = 'running' GROUP BY owner ORDER BY owner";
@@ -261,7 +239,6 @@ pub fn is_open(connection: &Connection) -> Result<bool> {
     Ok(connection.prepare_cached(sql)?.query_row([], |row| row.get(0))?)
 }
 
-/// Adds a line to a job's log.
 pub fn log(connection: &Connection, id: JobId, level: &str, text: &str) -> Result<()> {
     let sql = "INSERT INTO job_log (job_id, at, level, text) VALUES (?, ?, ?, ?)";
     connection.prepare_cached(sql)?.execute((id.0, now_ms(), level, text))?;

@@ -18,18 +18,13 @@ use sim::Step;
 /// Selection of jobs; `None` in a field accepts all.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct JobFilter {
-    /// Only jobs of the study of this name.
     pub study: Option<String>,
-    /// Only jobs in this state.
     pub status: Option<Status>,
     /// True to include jobs whose inputs are no longer those of the study.
     pub superseded: bool,
 }
 
-/// All studies, by name.
-///
-/// # Errors
-/// When the database cannot be read.
+/// Sorted by name.
 pub fn studies(store: &Store) -> Result<Vec<StudyRow>> {
     let sql = "SELECT name, path, paused, study_id FROM study ORDER BY name";
     let mut studies = rows(store, sql, &[], |row| {
@@ -48,10 +43,6 @@ pub fn studies(store: &Store) -> Result<Vec<StudyRow>> {
     Ok(studies.into_iter().map(|(study, _)| study).collect())
 }
 
-/// A study by name.
-///
-/// # Errors
-/// When there is none of that name.
 pub fn study(store: &Store, name: &str) -> Result<StudyRow> {
     let studies = studies(store)?;
     let known = studies.iter().map(|s| s.name.clone()).collect();
@@ -66,7 +57,6 @@ fn axis(store: &Store, study: &str, axis: &str) -> Result<Vec<String>> {
     rows(store, sql, &[&study, &axis], |row| row.get(0))
 }
 
-/// Place of a job in the grid of a garment.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Place<'a> {
     size: &'a str,
@@ -80,10 +70,6 @@ impl<'a> Place<'a> {
     }
 }
 
-/// A garment of a study as a grid of sizes by subjects.
-///
-/// # Errors
-/// When there is no such study.
 pub fn grid(store: &Store, study: &str, garment: &str) -> Result<Grid> {
     self::study(store, study)?;
     let jobs: Vec<JobRow> = jobs(store, &JobFilter { study: Some(study.to_owned()), ..JobFilter::default() })?
@@ -127,9 +113,6 @@ pub fn grid(store: &Store, study: &str, garment: &str) -> Result<Grid> {
 }
 
 /// Fabric of each garment of a study, by name: that of its first current job.
-///
-/// # Errors
-/// When the database cannot be read.
 pub fn cloths(store: &Store, study: &str) -> Result<BTreeMap<String, String>> {
     let sql =
         "SELECT garment, fabric.name, min(job_id) FROM job JOIN study USING (study_id) JOIN fabric USING (fabric_id)
@@ -137,10 +120,7 @@ pub fn cloths(store: &Store, study: &str) -> Result<BTreeMap<String, String>> {
     Ok(rows(store, sql, &[&study], |row| Ok((row.get(0)?, row.get(1)?)))?.into_iter().collect())
 }
 
-/// Jobs of a selection, by study and in the order of queueing.
-///
-/// # Errors
-/// When the database cannot be read.
+/// Sorted by study, then in the order of queueing.
 pub fn jobs(store: &Store, filter: &JobFilter) -> Result<Vec<JobRow>> {
     let sql = format!(
         "{SELECT_JOB} WHERE (:study IS NULL OR study.name = :study) AND (:status IS NULL OR status = :status)
@@ -155,10 +135,6 @@ pub fn jobs(store: &Store, filter: &JobFilter) -> Result<Vec<JobRow>> {
     Ok(jobs)
 }
 
-/// One job.
-///
-/// # Errors
-/// When there is no job of that number.
 pub fn job(store: &Store, id: JobId) -> Result<JobRow> {
     let sql = format!("{SELECT_JOB} WHERE job_id = ?");
     let found = store.reader.prepare_cached(&sql)?.query_row([id.0], job_row).optional()?;
@@ -166,9 +142,6 @@ pub fn job(store: &Store, id: JobId) -> Result<JobRow> {
 }
 
 /// Number of current results of a study that lie inside the body by more than [`INSIDE_M`].
-///
-/// # Errors
-/// When the database cannot be read.
 pub fn inside(store: &Store, study: &str) -> Result<usize> {
     let sql = "SELECT count(*) FROM job JOIN study USING (study_id) JOIN metrics USING (job_id)
         WHERE study.name = ? AND is_current AND penetration_max_mm > ?";
@@ -177,10 +150,7 @@ pub fn inside(store: &Store, study: &str) -> Result<usize> {
     Ok(count as usize)
 }
 
-/// Every measurement of a result, by the stage at which it was taken and by its number.
-///
-/// # Errors
-/// When the database cannot be read.
+/// Sorted by stage of measurement and by number.
 pub fn chi(store: &Store, id: JobId) -> Result<Vec<ChiRow>> {
     let sql =
         "SELECT stage, measurement_no, measurement, kind = 'closed_girth', is_free_edge, is_controlled, l2d_mm, l3d_mm
@@ -199,10 +169,7 @@ pub fn chi(store: &Store, id: JobId) -> Result<Vec<ChiRow>> {
     })
 }
 
-/// Metrics of a result; `None` while there is no result.
-///
-/// # Errors
-/// When the database cannot be read.
+/// `None` while there is no result.
 pub fn metrics(store: &Store, id: JobId) -> Result<Option<MetricsRow>> {
     let sql = "SELECT n, e_chi, sd_chi, ei, max_abs_error, vertices, faces, iterations, residual, converged,
             penetration_max_mm, seam_gap_max_mm, self_crossings, distortion
@@ -228,38 +195,24 @@ pub fn metrics(store: &Store, id: JobId) -> Result<Option<MetricsRow>> {
     Ok(store.reader.prepare_cached(sql)?.query_row([id.0], row).optional()?)
 }
 
-/// The recorded steps of a finished job.
-///
-/// # Errors
-/// When the database cannot be read.
 pub fn history(store: &Store, id: JobId) -> Result<Vec<Step>> {
     let sql = "SELECT iteration, level, residual, seam_gap_mm, e_chi FROM history WHERE job_id = ? ORDER BY step";
     rows(store, sql, &[&id.0], |row| step(row, 0))
 }
 
-/// A job's log, oldest first.
-///
-/// # Errors
-/// When the database cannot be read.
+/// Oldest first.
 pub fn log(store: &Store, id: JobId) -> Result<Vec<LogLine>> {
     rows(store, "SELECT at, level, text FROM job_log WHERE job_id = ? ORDER BY log_id", &[&id.0], |row| {
         Ok(LogLine { at_ms: row.get(0)?, level: row.get(1)?, text: row.get(2)? })
     })
 }
 
-/// The stages of a job with their content hashes.
-///
-/// # Errors
-/// When the database cannot be read.
 pub fn stages(store: &Store, id: JobId) -> Result<Vec<StageRow>> {
     let sql = "SELECT kind, hash, was_cached FROM job_artefact WHERE job_id = ? ORDER BY kind";
     rows(store, sql, &[&id.0], |row| Ok(StageRow { stage: row.get(0)?, hash: row.get(1)?, was_cached: row.get(2)? }))
 }
 
 /// Jobs of the layers under a layer of an outfit, the inmost first; empty for a garment that is worn alone.
-///
-/// # Errors
-/// When the database cannot be read.
 pub fn layers_under(store: &Store, id: JobId) -> Result<Vec<JobId>> {
     let sql = "SELECT under.job_id FROM v_outfit AS own JOIN v_outfit AS under USING (study, outfit, simulator, repeat)
         JOIN job_input AS of_own ON of_own.job_id = own.job_id AND of_own.name = 'outfit.id'
@@ -268,10 +221,6 @@ pub fn layers_under(store: &Store, id: JobId) -> Result<Vec<JobId>> {
     rows(store, sql, &[&id.0], |row| Ok(JobId(row.get(0)?)))
 }
 
-/// Outfits of all studies, each with its layers.
-///
-/// # Errors
-/// When the database cannot be read.
 pub fn outfits(store: &Store) -> Result<Vec<OutfitRow>> {
     // One job tells of which layer a garment is.
     let sql = "SELECT study.name, outfit.value, first.garment, style.name
@@ -291,10 +240,6 @@ pub fn outfits(store: &Store) -> Result<Vec<OutfitRow>> {
     Ok(outfits)
 }
 
-/// Ease and fit class of every size on every subject of a study.
-///
-/// # Errors
-/// When the database cannot be read.
 pub fn ease(store: &Store, study: &str) -> Result<Vec<EaseRow>> {
     let sql = "SELECT garment, size, subject, level, pattern_girth_mm, body_girth_mm, decides, fit_class, ease_mm,
             undersized, borderline
@@ -325,10 +270,6 @@ pub fn ease(store: &Store, study: &str) -> Result<Vec<EaseRow>> {
     })
 }
 
-/// Recommended simulator for every garment and fit class of a study.
-///
-/// # Errors
-/// When the database cannot be read.
 pub fn recommendations(store: &Store, study: &str) -> Result<Vec<RecommendationRow>> {
     let sql = "SELECT garment, fit_class, recommended, basis, verdict, rule_says, effect, ci_low, ci_high, n_subjects, reason,
             p_holm, would_settle
@@ -352,7 +293,6 @@ pub fn recommendations(store: &Store, study: &str) -> Result<Vec<RecommendationR
     })
 }
 
-/// Rows of a query.
 fn rows<T>(
     store: &Store,
     sql: &str,
@@ -405,9 +345,6 @@ fn job_row(row: &Row<'_>) -> rusqlite::Result<JobRow> {
 }
 
 /// Offset of the machine's local time from UTC at a time in ms since 1970, ms. SQLite asks the system for its zone.
-///
-/// # Errors
-/// When the database cannot be read.
 pub fn local_offset_ms(store: &Store, at_ms: i64) -> Result<i64> {
     let sql = "SELECT 1000 * (CAST(strftime('%s', ?1, 'unixepoch', 'localtime') AS INTEGER) - ?1)";
     Ok(store.reader.prepare_cached(sql)?.query_row([at_ms.div_euclid(1000)], |row| row.get(0))?)

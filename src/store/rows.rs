@@ -8,7 +8,6 @@ use geom::units::mm;
 use pattern::table;
 use sim::{Progress, Step};
 
-/// Number of a job in its database.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
 #[serde(transparent)]
 pub struct JobId(pub i64);
@@ -27,45 +26,36 @@ impl FromStr for JobId {
     }
 }
 
-/// Number of a subject's revision in its database. The measurements of a revision never change.
+/// Number of a subject's revision, whose measurements never change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SubjectId(pub i64);
 
-/// Numbers of the revisions of a style and of one of its sizes in their database. The pattern and seam file of a
-/// revision never change.
+/// Revisions of a style and of one of its sizes, whose pattern and seam file never change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SizeKey {
-    /// Row of the style.
     pub style: i64,
-    /// Row of the size.
     pub size: i64,
 }
 
-/// State of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
-    /// Waits for a worker.
     Queued,
-    /// Runs in a worker.
     Running,
     /// Has a converged result.
     Done,
     /// Has a result whose residual did not reach its tolerance.
     NotConverged,
-    /// Ended with an error.
     Failed,
-    /// Was cancelled.
     Cancelled,
 }
 
 impl Status {
-    /// All states, in the order of a job's life.
+    /// Order is that of a job's life.
     pub const ALL: [Self; 6] =
         [Self::Queued, Self::Running, Self::Done, Self::NotConverged, Self::Failed, Self::Cancelled];
 
     /// Name in SQL.
-    #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Queued => "queued",
@@ -77,33 +67,26 @@ impl Status {
         }
     }
 
-    /// The state of a name in SQL.
-    #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|status| status.as_str() == name)
     }
 
-    /// True if the job has a result.
-    #[must_use]
     pub fn has_result(self) -> bool {
         matches!(self, Self::Done | Self::NotConverged)
     }
 
     /// True if the job has ended, and only a user can change its state.
-    #[must_use]
     pub fn is_final(self) -> bool {
         !matches!(self, Self::Queued | Self::Running)
     }
 }
 
-/// Progress of a running job.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JobProgress {
-    /// Present phase (`sew`, `drape`, ...).
+    /// `sew`, `drape`, ...
     pub phase: String,
     /// Share done, 0 to 1.
     pub fraction: f64,
-    /// The latest step.
     pub step: Step,
 }
 
@@ -116,7 +99,7 @@ impl From<&Progress> for JobProgress {
 /// A study and the states of its current jobs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyRow {
-    /// Name of the study, unique in the database.
+    /// Unique in the database.
     pub name: String,
     /// Path of the study's `study.toml`.
     pub path: std::path::PathBuf,
@@ -124,30 +107,24 @@ pub struct StudyRow {
     pub paused: bool,
     /// Jobs in each state, in the order of [`Status::ALL`].
     pub counts: [usize; 6],
-    /// Garment names, in order of the study file.
+    /// Order is that of the study file.
     pub garments: Vec<String>,
 }
 
 impl StudyRow {
     /// Number of current jobs.
-    #[must_use]
     pub fn total(&self) -> usize {
         self.counts.iter().sum()
     }
 
-    /// Number of current jobs in a state.
-    #[must_use]
     pub fn count(&self, status: Status) -> usize {
         self.counts[status as usize]
     }
 }
 
-/// An outfit of a study.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutfitRow {
-    /// Name of the study.
     pub study: String,
-    /// Name of the outfit.
     pub name: String,
     /// Garment in the study and style in the catalogue of each layer, the inmost first.
     pub layers: Vec<(String, String)>,
@@ -156,43 +133,32 @@ pub struct OutfitRow {
 /// A job as lists show it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JobRow {
-    /// Number of the job, unique in the database.
     pub id: JobId,
-    /// Name of the study that queued it.
     pub study: String,
-    /// Name of the garment in the study.
     pub garment: String,
-    /// Name of the size, such as `M`.
     pub size: String,
-    /// Name of the subject in the study.
     pub subject: String,
-    /// Simulator that the job runs.
     pub simulator: Simulator,
     /// Number of the repeat of the same simulation, from 1.
     pub repeat: u32,
-    /// State in the queue.
     pub status: Status,
     /// True while the job's inputs are those of the study file.
     pub is_current: bool,
-    /// Priority in the queue; jobs of greater priority run earlier.
+    /// Jobs of greater priority run earlier.
     pub priority: i64,
-    /// Number of times that the job was started.
     pub attempts: u32,
-    /// Reason of the failure, where the job failed.
     pub error: Option<String>,
-    /// Time when the job was queued, ms since 1970 (UTC).
+    /// Since 1970 (UTC).
     pub queued_at_ms: i64,
-    /// Time of the last start, ms since 1970 (UTC).
+    /// Last start, since 1970 (UTC).
     pub started_at_ms: Option<i64>,
-    /// Time of the end, ms since 1970 (UTC).
+    /// Since 1970 (UTC).
     pub finished_at_ms: Option<i64>,
-    /// Time from the last start to the end, ms; `None` until the job ends.
+    /// Time from the last start to the end; `None` until the job ends.
     pub wall_ms: Option<i64>,
-    /// Progress, while the job runs.
+    /// `None` unless the job runs.
     pub progress: Option<JobProgress>,
-    /// EI of the result, where there is one.
     pub ei: Option<f64>,
-    /// Deepest penetration of the result into the body, m, where there is one.
     pub penetration_max_m: Option<f64>,
 }
 
@@ -201,20 +167,17 @@ pub struct JobRow {
 pub const INSIDE_M: f64 = 5e-3;
 
 /// Depth of a drape inside the body in words, `37 mm inside`; `None` up to [`INSIDE_M`].
-#[must_use]
 pub fn inside_words(penetration_max_m: f64) -> Option<String> {
     (penetration_max_m > INSIDE_M).then(|| format!("{:.0} mm inside", mm(penetration_max_m)))
 }
 
 impl JobRow {
-    /// Depth of the result inside the body in words; `None` without a result, and up to [`INSIDE_M`].
-    #[must_use]
+    /// `None` without a result, and up to [`INSIDE_M`].
     pub fn inside(&self) -> Option<String> {
         self.penetration_max_m.and_then(inside_words)
     }
 
-    /// Estimated time left, ms: (time since the start) * (1 - f) / f, where f is the share done.
-    #[must_use]
+    /// Estimated time left: (time since the start) * (1 - f) / f, where f is the share done.
     pub fn eta_ms(&self, now_ms: i64) -> Option<i64> {
         let fraction = self.progress.as_ref()?.fraction;
         let elapsed = (now_ms - self.started_at_ms?).max(0) as f64;
@@ -227,11 +190,9 @@ impl JobRow {
 pub struct Cell {
     /// Current job; `None` while the study is not queued.
     pub job: Option<JobId>,
-    /// State of that job.
     pub status: Option<Status>,
     /// Share done while it runs, 0 to 1.
     pub fraction: Option<f64>,
-    /// EI of the job's result.
     pub ei: Option<f64>,
     /// True where the result lies inside the body by more than [`INSIDE_M`].
     pub is_inside: bool,
@@ -240,9 +201,8 @@ pub struct Cell {
 /// Fit of one size on one subject, from the ease of the level that decides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FitCell {
-    /// Fit class of the ease.
     pub class: FitClass,
-    /// Pattern girth minus body girth, m.
+    /// Pattern girth minus body girth.
     pub ease_m: f64,
     /// True where the pattern is smaller than the body.
     pub undersized: bool,
@@ -253,13 +213,11 @@ pub struct FitCell {
 /// A study's garment as a grid of sizes (rows) by subjects (columns).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
-    /// Name of the study.
     pub study: String,
-    /// Name of the garment in the study.
     pub garment: String,
-    /// Sizes, in order of the study file.
+    /// Order is that of the study file.
     pub sizes: Vec<String>,
-    /// Subjects, in order of the study file.
+    /// Order is that of the study file.
     pub subjects: Vec<String>,
     /// Simulators that have jobs, in the order of the innermost index of `cells`.
     pub simulators: Vec<Simulator>,
@@ -269,14 +227,11 @@ pub struct Grid {
     pub fits: Vec<Vec<Option<FitCell>>>,
 }
 
-/// One measurement of one result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChiRow {
-    /// Stage at which it was measured (`sewn`, `popup`, `drape`).
+    /// `sewn`, `popup` or `drape`.
     pub stage: String,
-    /// Number of the measurement in the style.
     pub no: u32,
-    /// Name of the measurement in the style.
     pub name: String,
     /// True for a closed girth.
     pub is_girth: bool,
@@ -284,15 +239,14 @@ pub struct ChiRow {
     pub is_free_edge: bool,
     /// True where the simulator sets this length to that of the pattern by construction.
     pub is_controlled: bool,
-    /// Pattern length, m.
+    /// Pattern length.
     pub l2d_m: f64,
-    /// Length on the drape, m.
+    /// Length on the drape.
     pub l3d_m: f64,
 }
 
 impl ChiRow {
     /// Evaluation ratio L3D / L2D.
-    #[must_use]
     pub fn chi(&self) -> f64 {
         self.l3d_m / self.l2d_m
     }
@@ -303,7 +257,7 @@ impl ChiRow {
 pub struct MetricsRow {
     /// Number of measurements.
     pub n: u32,
-    /// E: mean chi.
+    /// Mean chi.
     pub e_chi: f64,
     /// Sample standard deviation of chi.
     pub sd_chi: f64,
@@ -313,17 +267,13 @@ pub struct MetricsRow {
     pub max_abs_error: f64,
     /// Vertices of the sewn mesh.
     pub vertices: u32,
-    /// Triangles of the sewn mesh.
     pub faces: u32,
-    /// Iterations, summed over all mesh levels.
+    /// Sum over all mesh levels.
     pub iterations: u32,
     /// Rms residual force divided by the mean weight of a vertex.
     pub residual: f64,
-    /// True where the residual reached its tolerance.
     pub converged: bool,
-    /// Deepest penetration into the body, m.
     pub penetration_max_m: f64,
-    /// Greatest seam gap, m.
     pub seam_gap_max_m: f64,
     /// Edges that pierce the garment's own cloth; `None` for results of earlier programs, which did not count them.
     pub self_crossings: Option<u32>,
@@ -332,35 +282,24 @@ pub struct MetricsRow {
     pub distortion: Option<f64>,
 }
 
-/// Ease of a size on a subject at one level of the body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EaseRow {
-    /// Name of the garment in the study.
     pub garment: String,
-    /// Name of the size, such as `M`.
     pub size: String,
-    /// Name of the subject in the study.
     pub subject: String,
-    /// Body level (`chest`, `hip`, ...).
+    /// `chest`, `hip`, ...
     pub level: String,
-    /// Girth of the pattern there, m.
     pub pattern_girth_m: f64,
-    /// Girth of the body there, m.
     pub body_girth_m: f64,
     /// True where this level has the least ease and so decides the fit class.
     pub decides: bool,
-    /// Ease, fit class and marks.
     pub fit: FitCell,
 }
 
-/// Recommended simulator of one garment and fit class, with its evidence.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecommendationRow {
-    /// Name of the garment in the study.
     pub garment: String,
-    /// Fit class that the advice is for.
     pub class: FitClass,
-    /// Simulator to use.
     pub recommended: Simulator,
     /// `evidence` or `rule`.
     pub basis: String,
@@ -374,7 +313,6 @@ pub struct RecommendationRow {
     pub interval: Option<(f64, f64)>,
     /// Number of subjects with results of both simulators.
     pub n_subjects: u32,
-    /// The reason in words.
     pub reason: String,
     /// Holm-adjusted p of the sign-flip test; `None` with too few subjects.
     pub p_holm: Option<f64>,
@@ -382,48 +320,39 @@ pub struct RecommendationRow {
     pub would_settle: String,
 }
 
-/// One line of a job's log.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LogLine {
-    /// Time of the event, ms since 1970 (UTC).
+    /// Since 1970 (UTC).
     pub at_ms: i64,
     /// `info`, `warn` or `error`.
     pub level: String,
-    /// The event, as a sentence.
     pub text: String,
 }
 
-/// A stage of a job, with the hash of its inputs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StageRow {
     /// `body`, `field`, `mesh` or `drape`.
     pub stage: String,
-    /// Hash of the stage's inputs, under which the cache keeps its product.
+    /// Hash of the inputs, under which the cache keeps the product.
     pub hash: String,
-    /// True where the cache had the product.
     pub was_cached: bool,
 }
 
 /// Ending of a file, and the maker of its bytes from rows.
 pub type Encoder = (&'static str, fn(&Table) -> std::io::Result<Vec<u8>>);
 
-/// A table of text and numbers, such as a listing of the catalogue or the rows of a query.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
-    /// Heading of each column.
     pub columns: Vec<String>,
-    /// Rows of values, in order of the columns.
     pub rows: Vec<Vec<Value>>,
 }
 
 impl Table {
-    /// Makes a table from headings and rows.
     pub fn new<'a>(columns: impl IntoIterator<Item = &'a str>, rows: impl IntoIterator<Item = Vec<Value>>) -> Self {
         Self { columns: columns.into_iter().map(str::to_owned).collect(), rows: rows.into_iter().collect() }
     }
 
-    /// Returns the table as CSV. Texts that a spreadsheet would take for formulas are guarded.
-    #[must_use]
+    /// Guards texts that a spreadsheet would take for formulas.
     pub fn csv(&self) -> String {
         let rows = self.rows.iter().map(|row| csv_row(row));
         std::iter::once(csv_head(&self.columns)).chain(rows).collect()
@@ -431,7 +360,6 @@ impl Table {
 }
 
 /// Headings of which none is twice, for formats that find values by them: `ei`, `ei_2`.
-#[must_use]
 pub fn distinct(columns: &[String]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for column in columns {
@@ -442,12 +370,10 @@ pub fn distinct(columns: &[String]) -> Vec<String> {
     names
 }
 
-/// The headings of a table as a line of CSV.
 pub(crate) fn csv_head(columns: &[String]) -> String {
     table::line(columns.iter().map(|name| table::guarded(name)))
 }
 
-/// Returns a row as a line of CSV.
 pub(crate) fn csv_row(row: &[Value]) -> String {
     table::line(row.iter().map(|value| match value {
         Value::Text(text) => table::guarded(text),
@@ -455,16 +381,11 @@ pub(crate) fn csv_row(row: &[Value]) -> String {
     }))
 }
 
-/// A value of a [`Table`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// No value: NULL in SQL.
     Null,
-    /// Whole number.
     Integer(i64),
-    /// Real number.
     Real(f64),
-    /// Text in UTF-8.
     Text(String),
     /// Number of bytes of a blob, whose contents are not kept.
     Blob(usize),
@@ -498,7 +419,6 @@ impl From<&Value> for serde_json::Value {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum StageKind {
-    /// Body.
     Body,
     /// Distance field of the body.
     Field,
@@ -509,11 +429,9 @@ pub enum StageKind {
 }
 
 impl StageKind {
-    /// All stages, in the order in which data flows.
+    /// Order is that in which data flows.
     pub const ALL: [Self; 4] = [Self::Body, Self::Field, Self::Mesh, Self::Drape];
 
-    /// Name in SQL.
-    #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Body => "body",

@@ -18,22 +18,16 @@ const SAVED: [(&str, &str); 8] = [
     ("times", include_str!("../../db/queries/times.sql")),
 ];
 
-/// A query with a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SavedQuery {
-    /// Name that calls the query.
     pub name: String,
     /// Purpose of the query: its first line, where that is a comment.
     pub about: String,
-    /// Text of the query.
     pub sql: String,
 }
 
 /// Saved queries by name: those of the program, and those of the files NAME.sql in a folder. Of two with the same name
 /// the folder's counts.
-///
-/// # Errors
-/// When the folder has a file that cannot be read.
 pub fn saved_queries(folder: Option<&Path>) -> Result<Vec<SavedQuery>> {
     let mut found: BTreeMap<String, String> = BTreeMap::new();
     found.extend(SAVED.iter().map(|(name, sql)| ((*name).to_owned(), (*sql).to_owned())));
@@ -48,10 +42,7 @@ pub fn saved_queries(folder: Option<&Path>) -> Result<Vec<SavedQuery>> {
     Ok(found.into_iter().map(|(name, sql)| SavedQuery { about: about(&sql), name, sql }).collect())
 }
 
-/// Saves a query as NAME.sql in a folder, replacing a query of that name.
-///
-/// # Errors
-/// When the name cannot be that of a file, or the file cannot be written.
+/// Saves as NAME.sql, replacing a query of that name.
 pub fn save_query(folder: &Path, name: &str, sql: &str) -> Result<()> {
     let is_plain = |c: char| c.is_alphanumeric() || "-_ .".contains(c);
     if name.is_empty() || name.starts_with('.') || !name.chars().all(is_plain) {
@@ -60,10 +51,6 @@ pub fn save_query(folder: &Path, name: &str, sql: &str) -> Result<()> {
     write_files(folder, &[(format!("{name}.sql"), format!("{}\n", sql.trim_end()).into_bytes())]).map(drop)
 }
 
-/// The text of a saved query.
-///
-/// # Errors
-/// When there is none of that name.
 pub fn saved_query(folder: Option<&Path>, name: &str) -> Result<String> {
     let saved = saved_queries(folder)?;
     let known = saved.iter().map(|saved| saved.name.clone()).collect();

@@ -32,10 +32,9 @@ const MIGRATIONS: [&str; 22] = [
     include_str!("../../db/migrations/0022_comments.sql"),
 ];
 
-/// Version of the latest schema.
 pub(crate) const LATEST: i64 = MIGRATIONS.len() as i64;
 
-/// Applies the migrations that a database lacks: all of them or none.
+/// Applies all migrations that a database lacks, or none.
 pub(crate) fn migrate(connection: &mut Connection) -> Result<()> {
     if check_version(connection, 0)? == MIGRATIONS.len() {
         return Ok(());
@@ -72,7 +71,6 @@ mod tests {
 
     const SCHEMA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../db/schema.sql");
 
-    /// The schema that the migrations add up to, in SQLite's words.
     fn dump(connection: &Connection) -> String {
         let mut statement = connection
             .prepare("SELECT sql FROM sqlite_schema WHERE sql IS NOT NULL ORDER BY rowid")

@@ -18,25 +18,21 @@ use crate::rows::{Table, Value, csv_head, csv_row, distinct};
 pub struct Interrupter(rusqlite::InterruptHandle);
 
 impl Interrupter {
-    /// Ends the query that runs now with an error. Does nothing where no query runs.
+    /// Does nothing where no query runs.
     pub fn interrupt(&self) {
         self.0.interrupt();
     }
 }
 
-/// Returns a handle that stops a running [`query`] from another thread.
-#[must_use]
 pub fn interrupter(store: &Store) -> Interrupter {
     Interrupter(store.reader.get_interrupt_handle())
 }
 
 /// Returns the rows of a query; of several statements separated by `;`, those of the last. No statement can write.
+/// Fails with [`StudyError::Interrupted`] where an [`Interrupter`] stopped it.
 ///
-/// Besides SQLite's own functions there are `median(x)`, `stddev(x)` (sample, n-1) and `quantile(x, p)` (p in 0 to
-/// 1, linear between order statistics).
-///
-/// # Errors
-/// The message of SQLite on the query; [`StudyError::Interrupted`] when an [`Interrupter`] stopped it.
+/// Besides SQLite's own functions there are `median(x)`, `stddev(x)` (sample, n-1) and `quantile(x, p)` (p in 0 to 1,
+/// linear between order statistics).
 pub fn query(store: &Store, sql: &str) -> Result<Table> {
     Ok(answer(store, sql, usize::MAX, &AtomicBool::new(false), &mut |_| {})?.table)
 }
@@ -51,29 +47,21 @@ pub(crate) fn value(value: ValueRef<'_>) -> Value {
     }
 }
 
-/// The rows of a query, up to a limit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SqlAnswer {
-    /// Columns and rows.
     pub table: Table,
     /// True where the query has more rows than the limit.
     pub is_cut: bool,
 }
 
-/// A table or view with its columns.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Relation {
-    /// Name of the table or view.
     pub name: String,
-    /// Names of its columns, in order.
     pub columns: Vec<String>,
 }
 
 /// Returns at most `most` rows of a query, as [`query`] does; `stop` ends it early, `so_far` is told the number of rows
 /// after each.
-///
-/// # Errors
-/// The message of SQLite on the query; [`Interrupted`](crate::StudyError::Interrupted) when it was stopped.
 pub fn answer(
     store: &Store,
     text: &str,
@@ -100,12 +88,8 @@ pub fn answer(
     Ok(answer)
 }
 
-/// Writes all rows of a query into a file and returns their number. The file's ending says CSV or JSON. `stop` ends it
+/// Writes all rows of a query into a new file, CSV or JSON by its ending, and returns their number. `stop` ends it
 /// early, `so_far` is told the number of rows after each.
-///
-/// # Errors
-/// The message of SQLite on the query; when the file has another ending, exists already or cannot be written; when the
-/// query was stopped.
 pub fn export_query(
     store: &Store,
     text: &str,
@@ -146,10 +130,7 @@ pub fn export_query(
     written.map(|()| rows)
 }
 
-/// Creates a file for rows.
-///
-/// # Errors
-/// [`StudyError::Exists`] when there is one of that name; when it cannot be created.
+/// Fails with [`StudyError::Exists`] where there is one of that name.
 pub fn new_file(path: &Path) -> Result<File> {
     File::create_new(path).map_err(|error| match error.kind() {
         io::ErrorKind::AlreadyExists => StudyError::Exists { what: "file", name: path.display().to_string() },
@@ -174,7 +155,6 @@ fn each_row(
     })
 }
 
-/// Refusal of a query: what SQLite says of it, and what helps.
 #[derive(Debug, thiserror::Error)]
 #[error("{said}{hint}")]
 struct QueryError {
@@ -208,7 +188,7 @@ fn refusal(store: &Store, text: &str, error: rusqlite::Error) -> StudyError {
     StudyError::refused(Origin::Sql, QueryError { said, hint })
 }
 
-/// Question for the name that was meant; empty where none is near.
+/// Empty where none is near.
 fn did_you_mean<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
     nearest(name, known).map_or(String::new(), |near| format!("; did you mean `{near}`?"))
 }
@@ -242,10 +222,7 @@ fn walk_rows(
     Ok(())
 }
 
-/// The views and tables that a query may name, views first, with their columns.
-///
-/// # Errors
-/// When the database cannot be read.
+/// Views and tables that a query may name, views first.
 pub fn relations(store: &Store) -> Result<Vec<Relation>> {
     let table = query(
         store,
@@ -263,7 +240,7 @@ pub fn relations(store: &Store) -> Result<Vec<Relation>> {
     Ok(found)
 }
 
-/// A row as a JSON object, keys in order of the columns.
+/// Keys follow the order of the columns.
 fn json_line(columns: &[String], row: &[Value]) -> String {
     let cells = row.iter().map(serde_json::Value::from);
     let object: serde_json::Map<_, _> = columns.iter().cloned().zip(cells).collect();
@@ -280,7 +257,6 @@ mod tests {
         (folder, store)
     }
 
-    /// The numbers from 1 on.
     fn counted(to: u32) -> String {
         format!(
             "WITH RECURSIVE n(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM n WHERE x < {to}) SELECT x, 'a,\"b' AS t FROM n"

@@ -25,8 +25,7 @@ pub fn lightly<T>(connection: &mut Connection, act: impl FnOnce(&Transaction<'_>
     done
 }
 
-/// Returns the time, ms since 1970 (UTC). Only bookkeeping reads it; results never depend on it.
-#[must_use]
+/// Time since 1970 (UTC). Only bookkeeping reads it; results never depend on it.
 pub fn now_ms() -> i64 {
     SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_millis() as i64)
 }

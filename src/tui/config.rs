@@ -13,17 +13,13 @@ pub type Env<'a> = dyn Fn(&str) -> Option<String> + 'a;
 pub struct ConfigError(Vec<String>);
 
 /// Path of a file in `toile` of the config folder.
-#[must_use]
 pub fn path(env: &Env<'_>, file: &str) -> Option<PathBuf> {
     let set = |name: &str| env(name).filter(|value| !value.is_empty()).map(PathBuf::from);
     let folder = set("XDG_CONFIG_HOME").or_else(|| set("HOME").map(|home| home.join(".config")))?;
     Some(folder.join("toile").join(file))
 }
 
-/// Reads a file; returns the default where there is none.
-///
-/// # Errors
-/// When the file cannot be read; else all problems that `take` reports, each with its line.
+/// Returns the default where there is no file.
 pub fn read<T: Default>(
     path: Option<&Path>,
     take: impl Fn(&[Entry<'_>], &mut Problems) -> T,
@@ -35,9 +31,6 @@ pub fn read<T: Default>(
 }
 
 /// Parses a text; messages give the name of its file.
-///
-/// # Errors
-/// All problems that `take` reports, each with its line.
 pub fn parse<T>(name: &str, text: &str, take: impl FnOnce(&[Entry<'_>], &mut Problems) -> T) -> Result<T, ConfigError> {
     let line = |at: usize| 1 + text.as_bytes()[..at.min(text.len())].iter().filter(|&&byte| byte == b'\n').count();
     let (document, errors) = DeTable::parse_recoverable(text);
@@ -63,19 +56,16 @@ pub fn parse<T>(name: &str, text: &str, take: impl FnOnce(&[Entry<'_>], &mut Pro
 
 /// A line `name = value` of a file.
 pub struct Entry<'a> {
-    /// Name of the entry, a key at the top level of the file.
+    /// Key at the top level of the file.
     pub name: &'a str,
-    /// Value in TOML, with its place.
     pub value: &'a DeValue<'a>,
     /// Line of the file, from 1.
     pub line: usize,
 }
 
-/// Problems of a file, each with its line.
 pub struct Problems(Vec<(usize, String)>);
 
 impl Problems {
-    /// Reports a problem of a line.
     pub fn tell(&mut self, line: usize, what: String) {
         self.0.push((line, what));
     }

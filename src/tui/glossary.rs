@@ -3,7 +3,6 @@
 
 use std::sync::LazyLock;
 
-/// Text of `docs/glossary.md`.
 const GLOSSARY: &str = include_str!("../../docs/glossary.md");
 const FIT: &str = include_str!("../../docs/fit.md");
 
@@ -23,14 +22,11 @@ pub struct Term {
 }
 
 impl Term {
-    /// Main name of the term, by which lists show it.
-    #[must_use]
     pub fn name(&self) -> &str {
         &self.names[0]
     }
 
     /// True if names or texts contain a text, which must be in lower case.
-    #[must_use]
     pub fn contains(&self, text: &str) -> bool {
         self.names.iter().chain([&self.about]).any(|words| words.to_lowercase().contains(text))
     }
@@ -49,7 +45,6 @@ pub static TERMS: LazyLock<Vec<Term>> = LazyLock::new(|| {
 });
 
 /// Term of a name; without one, the term of the part before a comma, as in `mean gap, chest`.
-#[must_use]
 pub fn term(name: &str) -> Option<&'static Term> {
     let known = |name: &str| TERMS.iter().find(|term| term.names.iter().any(|known| known == name));
     known(name).or_else(|| known(name.split_once(',')?.0))
@@ -61,7 +56,7 @@ fn cells(line: &str) -> Option<Vec<&str>> {
     Some(row.split('|').map(str::trim).collect())
 }
 
-/// Reads the terms of the glossary. A line between heading and table names the document that tells more of all its rows.
+/// Takes a line between heading and table as naming the document that tells more of all rows.
 fn terms_of(glossary: &str) -> Vec<Term> {
     let mut more = String::new();
     let mut terms = vec![];
@@ -74,13 +69,13 @@ fn terms_of(glossary: &str) -> Vec<Term> {
     terms
 }
 
-/// Returns the document that the first link of a text leads to.
+/// Document that the first link of a text leads to.
 fn linked(text: &str) -> String {
     let file = text.split_once('(').and_then(|(_, rest)| rest.split_once(')'));
     file.map_or_else(String::new, |(file, _)| format!("docs/{file}"))
 }
 
-/// Reads a term from a line of the glossary. A link at the end of its words goes before that of its table.
+/// Prefers a link at the end of the term's words to that of its table.
 fn term_of(line: &str, more: &str) -> Option<Term> {
     let (names, unit, about, good) = match cells(line)?[..] {
         [names, unit, about] => (names, unit, about, ""),

@@ -58,17 +58,13 @@ use widgets::picture::PictureEncoder;
 use widgets::theme::{self, Colours, Theme};
 use widgets::theme_file;
 
-/// Options of a start of the workbench.
 pub struct Options {
-    /// Path of the database file.
     pub database: PathBuf,
     /// True where the database was named by the user, so that commands shown must name it too.
     pub is_database_named: bool,
-    /// True where nothing may be changed.
     pub readonly: bool,
     /// True where colours are off, whatever the environment says.
     pub no_color: bool,
-    /// Way in which pictures are shown.
     pub images: Images,
     /// Makers of files that need all rows at once, for exports, by the endings of the files.
     pub encoders: &'static [Encoder],
@@ -77,16 +73,13 @@ pub struct Options {
     pub quickstart: PathBuf,
 }
 
-/// Reason why the workbench ended.
 #[derive(Debug, thiserror::Error)]
 pub enum TuiError {
-    /// The store could not be opened.
     #[error(transparent)]
     Study(#[from] StudyError),
     /// One of the user's own files, with keys or colours, is wrong.
     #[error(transparent)]
     Config(#[from] ConfigError),
-    /// Terminal refused an operation.
     #[error("the workbench needs a terminal: {0}; `toile --help` lists commands that do not")]
     Terminal(#[from] io::Error),
 }
@@ -94,7 +87,6 @@ pub enum TuiError {
 /// Work that is left when the workbench was left.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Left {
-    /// Nothing.
     Nothing,
     /// The study at a path is to be run on by another process, as the user wished.
     Run(PathBuf),
@@ -102,9 +94,6 @@ pub enum Left {
 
 /// Runs the workbench until the user leaves it. A run that was started in it is then stopped, and its unfinished jobs
 /// go back into the queue. When the terminal is lost, the run is waited for instead.
-///
-/// # Errors
-/// When the database cannot be opened, a file of keys or colours is wrong, or there is no terminal.
 pub fn run(options: Options) -> Result<Left, TuiError> {
     let env = |name: &str| std::env::var(name).ok();
     let keys = keys_file::read(config::path(&env, keys_file::FILE).as_deref())?;
@@ -146,7 +135,6 @@ fn folders(options: &Options) -> Folders {
     Folders { studies: home.join("studies"), reports: home.join("reports") }
 }
 
-/// Handles messages and draws, until the user leaves.
 fn event_loop(display: &mut Display, app: &mut App, threads: &Threads, keeper: &mut Keeper) -> io::Result<Left> {
     let mut silence = None;
     let mut fading = Fading::default();
@@ -203,8 +191,7 @@ fn event_loop(display: &mut Display, app: &mut App, threads: &Threads, keeper: &
     }
 }
 
-/// Carries out an effect on the terminal, or hands it to its thread. Returns a message about its outcome, if that is
-/// known at once.
+/// Returns a message about the outcome, if that is known at once.
 fn carry_out(
     effect: Effect,
     display: &mut Display,

@@ -15,13 +15,11 @@ use spec::patterns::{self, Nest, Unit};
 use store::files::SourceFile;
 use store::{InOrigin, Origin, Problem, Result, StudyError};
 
-/// Endings of files that are bodies.
 const BODIES: [&str; 9] = ["obj", "ply", "stl", "glb", "toml", "smis", "vit", "yaml", "yml"];
 
 /// Garments and bodies of a study, by their folders.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wardrobe {
-    /// Name of the study.
     pub name: String,
     /// Folder of patterns: DXF, GarmentCode.
     pub garments: PathBuf,
@@ -31,20 +29,18 @@ pub struct Wardrobe {
     pub pairs: Option<PathBuf>,
     /// Unit of the patterns, where their files name none.
     pub unit: Option<Unit>,
-    /// Seam allowance of pieces without a sew line, m.
+    /// Seam allowance of pieces without a sew line.
     pub allowance_m: f64,
     /// Name of a built-in fabric.
     pub fabric: String,
-    /// Simulators that drape every garment.
     pub simulators: Vec<Simulator>,
 }
 
-/// Study made from a [`Wardrobe`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Opened {
     /// Files of the study: `study.toml`, and a seam file for each pattern that holds no seams.
     pub files: Vec<(String, Vec<u8>)>,
-    /// Files that cannot be used, each with the reason.
+    /// Each with the reason.
     pub refused: Vec<(PathBuf, String)>,
 }
 
@@ -57,9 +53,6 @@ enum Wearer {
 impl Wardrobe {
     /// Makes the study. Patterns without seams are sewn as proposed. Files that cannot be read or sewn are listed with
     /// the reason.
-    ///
-    /// # Errors
-    /// When a folder cannot be read or has no usable file, or the table of pairs names a file that is missing.
     pub fn open(&self) -> Result<Opened> {
         let mut opened = Opened::default();
         let bodies = self.wearers(&mut opened)?;
@@ -83,7 +76,7 @@ impl Wardrobe {
         Ok(opened)
     }
 
-    /// Bodies of the folder, by name; those that cannot be used are listed in `opened`.
+    /// Lists those that cannot be used in `opened`.
     fn wearers(&self, opened: &mut Opened) -> Result<BTreeMap<String, Wearer>> {
         let mut found = BTreeMap::new();
         for (name, path) in named(self.body_files()?) {
@@ -116,7 +109,6 @@ impl Wardrobe {
         Ok(found)
     }
 
-    /// Names of the bodies that wear each garment.
     fn couples(
         &self,
         garments: &BTreeMap<String, PathBuf>,
@@ -173,7 +165,6 @@ impl Wardrobe {
         Ok(())
     }
 
-    /// Text of the study file.
     fn text(
         &self,
         garments: &BTreeMap<String, PathBuf>,
@@ -219,7 +210,7 @@ impl Wardrobe {
     }
 }
 
-/// Path of the seam file of a garment within the study's folder.
+/// Path within the study's folder.
 fn seam_file(garment: &str) -> String {
     format!("seams/{garment}.seams.toml")
 }

@@ -13,13 +13,12 @@ use geom::units::mm;
 use pattern::table;
 use store::Result;
 
-/// A row of a table: values by column.
+/// Values by column.
 type Row = BTreeMap<String, String>;
 
 /// A measurement with its column of `measurements.csv`.
 type Known = (&'static str, &'static str);
 
-/// Measurements that are compared on scans and meshes.
 const OF_SCANS: [Known; 14] = [
     ("stature", "stature_cm"),
     ("neck_girth", "neck_girth_cm"),
@@ -37,7 +36,6 @@ const OF_SCANS: [Known; 14] = [
     ("crotch_level", "crotch_height_cm"),
 ];
 
-/// Measurements that are compared on pictures.
 const OF_PICTURES: [Known; 9] = [
     ("neck_girth", "neck_girth_cm"),
     ("chest_girth", "chest_girth_cm"),
@@ -50,7 +48,7 @@ const OF_PICTURES: [Known; 9] = [
     ("crotch_level", "crotch_height_cm"),
 ];
 
-/// Errors of one measurement over all bodies, millimetres.
+/// Errors of one measurement over all bodies.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Accuracy {
     /// Number of measurements.
@@ -66,31 +64,23 @@ pub struct Accuracy {
 /// One body, measured on one source.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Evaluated {
-    /// Name of the body.
     pub id: String,
     /// `scan`, `silhouette_orthographic`, `silhouette_perspective` or `photo`.
     pub source: &'static str,
-    /// Files that were read.
     pub files: Vec<String>,
-    /// Measured minus true, mm.
+    /// Measured minus true.
     pub errors_mm: BTreeMap<&'static str, f64>,
-    /// Reason why nothing was measured.
     pub error: Option<String>,
 }
 
-/// Result of [`evaluate`].
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Evaluation {
-    /// Accuracy by source and measurement.
     pub source: BTreeMap<&'static str, BTreeMap<&'static str, Accuracy>>,
-    /// Every body from every source.
     pub bodies: Vec<Evaluated>,
 }
 
-/// Measures every body of a folder on its mesh, scans, silhouettes and photographs.
-///
-/// # Errors
-/// When a table is absent or lacks a column. A body that cannot be measured is no error: its reason is in the result.
+/// Measures every body of a folder on its mesh, scans, silhouettes and photographs. A body that cannot be measured is
+/// no error: its reason is in the result.
 pub fn evaluate(folder: &Path) -> Result<Evaluation> {
     let manifest = table(folder, "manifest.csv")?;
     let truth: BTreeMap<String, Row> =
@@ -145,7 +135,6 @@ fn sex(row: &Row) -> Sex {
     if text(row, "sex").to_ascii_lowercase().starts_with('f') { Sex::Female } else { Sex::Male }
 }
 
-/// Measures one mesh or scan.
 fn from_mesh(folder: &Path, row: &Row, sex: Sex, known: &Row) -> Evaluated {
     let file = text(row, "file").to_owned();
     let read = || {
@@ -166,11 +155,11 @@ fn scan_values(girths: &Girths) -> Vec<(&'static str, f64)> {
 struct PicturePair<'a> {
     id: String,
     source: &'static str,
-    /// Rows of the front and the side picture.
+    /// Front and side.
     views: [Option<&'a Row>; 2],
 }
 
-/// Pairs of pictures by body and source, in the order of the table.
+/// Pairs by body and source, in the order of the table.
 fn picture_pairs(images: &[Row]) -> Vec<PicturePair<'_>> {
     let mut pairs: Vec<PicturePair<'_>> = Vec::new();
     for row in images {
@@ -192,13 +181,12 @@ fn picture_pairs(images: &[Row]) -> Vec<PicturePair<'_>> {
     pairs
 }
 
-/// Camera of an image; `None` where the table names none.
+/// `None` where the table names none.
 fn camera(row: &Row) -> Option<Camera> {
     let (focal, height) = (number(row, "focal_px")?, number(row, "height_px")?);
     Some(Camera::of_focal(focal, height as u32, number(row, "cam_distance_cm")? / 100.0))
 }
 
-/// Measures one body on its pictures.
 fn from_pictures_of(folder: &Path, pair: PicturePair<'_>, sex: Sex, known: &Row) -> Evaluated {
     let PicturePair { id, source, views } = pair;
     let files = views.iter().flatten().map(|row| text(row, "file").to_owned()).collect();
@@ -227,7 +215,6 @@ fn from_pictures_of(folder: &Path, pair: PicturePair<'_>, sex: Sex, known: &Row)
     Taken { id, source, files }.compared(&OF_PICTURES, found, known)
 }
 
-/// A body and the files on which it is measured.
 struct Taken {
     id: String,
     source: &'static str,
@@ -235,7 +222,7 @@ struct Taken {
 }
 
 impl Taken {
-    /// Differences in mm, measured minus true.
+    /// Measured minus true, mm.
     fn compared(
         self,
         columns: &[Known],

@@ -20,16 +20,16 @@ const ROUNDS: usize = 6;
 const KEPT_M2: f64 = 1e-9;
 /// Cost of a drawn piece that a handle changes, as a share of the cost of the handle itself.
 const PER_PIECE: f64 = 0.25;
-/// Step of the lengths of outlines by which a piece is told from its mirror image, m.
+/// Step of the lengths of outlines by which a piece is told from its mirror image.
 const ALIKE_M: f64 = 0.1e-3;
 /// Share of its limit that a handle keeps if it cannot move that far; and the limit below which it stays instead, m.
 const TIGHTER: f64 = 0.6;
 const LEAST_LIMIT_M: f64 = 2e-3;
 /// Share of its limit from which a handle counts as at it: a tenth of what it could do may be spared.
 const AT_LIMIT: f64 = 0.85;
-/// Step of amounts in a pattern maker's drawing, mm.
+/// Step of amounts in a pattern maker's drawing.
 const DRAWN_MM: f64 = 0.5;
-/// Distance inside its band at which an ease is aimed, m, so that rounding of amounts keeps it there.
+/// Distance inside its band at which an ease is aimed, so that rounding of amounts keeps it there.
 const INSIDE_M: f64 = 0.002;
 /// Least change of an ease per movement of a handle for which the handle is used. A weaker one would move more than 5
 /// mm for 1 mm of ease, and would be driven to its limit by targets that nothing else reaches.
@@ -37,24 +37,19 @@ const LEAST_EFFECT: f64 = 0.2;
 
 /// Amount of each handle of a bench, m.
 pub type Amounts = Vec<f64>;
-/// Value, or the handle that cannot move so far.
 type Moved<T> = std::result::Result<T, HandleError>;
 
-/// A style with its handles, the body that it is for, and its target ease.
 pub struct Bench<'a> {
-    /// Style before the change.
     pub style: &'a Style,
     /// Handles that may move; where amounts are given, the handles that have one.
     pub handles: Vec<Handle>,
     /// Reasons why the other handles cannot be moved.
     pub left_out: Vec<String>,
-    /// Wish for the alteration.
     pub wish: &'a Wish,
     body: &'a Body,
     target: &'a Target,
     /// Ease at every level: of the style as it is, and with the given moves.
     before: BTreeMap<String, f64>,
-    /// Levels at which the garment hangs free.
     free: BTreeSet<String>,
     given: Vec<(Handle, f64)>,
     fitted: BTreeMap<String, f64>,
@@ -65,11 +60,7 @@ pub struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    /// Measures the ease of a style, and finds its handles and their effects. `given` moves come first, and are no part
-    /// of the search.
-    ///
-    /// # Errors
-    /// When a given handle cannot move so far.
+    /// Measures the ease of a style, and finds its handles and their effects. `given` moves are no part of the search.
     pub fn new(
         style: &'a Style,
         given: Vec<(Handle, f64)>,
@@ -90,33 +81,27 @@ impl<'a> Bench<'a> {
         Ok(bench)
     }
 
-    /// True if the style has ease at a level.
     pub fn has_level(&self, level: &str) -> bool {
         self.before.contains_key(level)
     }
 
-    /// The levels at which the style has ease.
     pub fn levels_known(&self) -> impl Iterator<Item = &String> {
         self.before.keys()
     }
 
-    /// Least and greatest ease at a level, m; `None` without a target.
+    /// Least and greatest ease; `None` without a target.
     fn band_m(&self, level: &str) -> Option<[f64; 2]> {
         let is_top = ["chest", "bust"].iter().any(|chest| self.has_level(chest));
         let own = self.wish.targets.get(level).map(|band| band.map(from_mm));
         own.or_else(|| self.target.band(level, is_top, !self.free.contains(level)).map(|band| band.ends_m))
     }
 
-    /// Greatest amount of a handle, m.
     fn limit_m(&self, handle: Handle) -> f64 {
         from_mm(self.wish.limit_mm.unwrap_or_else(|| handle.most_mm()))
     }
 
     /// Returns the given amounts; where none are given, the cheapest change that brings every level into its band and
     /// meets `goals`. A handle that cannot move as far as the change asks gets a tighter limit, in the end 0.
-    ///
-    /// # Errors
-    /// When the given amounts cannot be applied.
     pub fn found(&self, goals: &[Goal]) -> Result<Amounts> {
         if !self.wish.moves_mm.is_empty() {
             return Ok(self.wish.moves_mm.iter().map(|(_, amount_mm)| from_mm(*amount_mm)).collect());
@@ -254,15 +239,11 @@ impl<'a> Bench<'a> {
         self.before.keys().filter(is_missed).filter(does).cloned().collect()
     }
 
-    /// Returns the style with its handles moved by their amounts, m.
-    ///
-    /// # Errors
-    /// When a handle cannot move so far.
+    /// Amounts in m.
     pub fn moved(&self, amounts: &[f64]) -> Result<Style> {
         self.style.moved(&self.moves(amounts)).origin(Origin::Alter)
     }
 
-    /// Finds the handles that can move, with their sensitivities, and the reasons why others cannot.
     fn see_handles(&mut self) {
         let asks_else = self.wish.targets.keys().any(|name| !self.has_level(name));
         let is_free = |handle: &Handle| {
@@ -294,7 +275,6 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Reasons why levels are missed, a sentence for each.
     pub fn reasons(&self, amounts: &[f64], levels: &[AlteredLevel]) -> Vec<String> {
         let reason = |missed: &AlteredLevel| {
             let level = missed.level.replace('_', " ");
@@ -357,7 +337,7 @@ fn drawn_pieces(style: &Style, changed: &Style) -> usize {
     pairs.filter(|pair| differs(*pair)).map(|(was, _)| drawn(was)).collect::<BTreeSet<_>>().len()
 }
 
-/// Ease at every level of a style on a body, m.
+/// Ease by level, m.
 fn eases(style: &Style, body: &Body) -> BTreeMap<String, f64> {
     ease::on(style, body).into_iter().map(|ease| (ease.level.clone(), ease.ease_m())).collect()
 }

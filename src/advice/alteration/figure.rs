@@ -13,12 +13,10 @@ use pattern::{Handle, Style};
 use spec::file::Person;
 use store::{InOrigin, Origin, Result};
 
-/// Movement of a handle by which the change of its point of measure is found, m.
+/// Movement of a handle by which the change of its point of measure is found.
 const STEP_M: f64 = 0.002;
-/// Step of amounts in a pattern maker's drawing, mm.
 const DRAWN_MM: f64 = 0.5;
 
-/// Alteration of the trade for a trait.
 struct Remedy {
     of: Trait,
     /// Handles of garments that cover the part of the body.
@@ -52,16 +50,14 @@ const fn remedy(of: Trait, covers: &'static [Handle], handles: &'static [(Handle
     Remedy { of, covers, handles }
 }
 
-/// A trait of the subject, and the alteration for it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ForFigure {
-    /// Name of the figure, such as `flat_seat`.
+    /// Such as `flat_seat`.
     pub figure: &'static str,
-    /// Amount of the trait on the body, mm.
     pub amount_mm: f64,
-    /// Handle for it; `None` where the style has none, or the amount is beyond what is cut.
+    /// `None` where the style has none, or the amount is beyond what is cut.
     pub handle: Option<&'static str>,
-    /// Amount of the handle, mm.
+    /// Amount of the handle.
     pub by_mm: f64,
 }
 
@@ -70,9 +66,6 @@ pub type Asked = (ForFigure, Option<(Handle, f64)>);
 
 /// Finds the traits of a person that no girth tells, and the handles of a style for them: figures that are said of the
 /// person, and others that are clear on the body.
-///
-/// # Errors
-/// When no standard body has the measurements of the body.
 pub fn of(style: &Style, person: &Person, body: &Body, wish: &Wish) -> Result<Vec<Asked>> {
     let known = style.handles();
     let said = person.figures.iter().map(|(of, amount_mm)| FigureFound { of, amount_mm, sd_mm: 0.0 });

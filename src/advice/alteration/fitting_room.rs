@@ -22,7 +22,7 @@ use spec::JobSpec;
 use spec::versions::FIELD_SPACING_M;
 use store::{InOrigin, Origin, Result};
 
-/// Movement of a handle by which the response of a drape is found, m: so small that the mesh can deform along.
+/// Movement of a handle by which the response of a drape is found: so small that the mesh can deform along.
 const TAKEN_ALONG_M: f64 = 0.1e-3;
 
 /// Seeds of the drapes from which scatter is estimated.
@@ -31,7 +31,6 @@ const STARTS: [u64; 4] = [0, 1, 2, 3];
 const LEAST_SCATTER: f64 = 1.0;
 const LEAST_SCATTER_KPA: f64 = 0.02;
 
-/// A body with its distance field, on which styles are draped.
 pub struct FittingRoom<'a> {
     spec: &'a JobSpec,
     body: &'a Body,
@@ -39,19 +38,12 @@ pub struct FittingRoom<'a> {
 }
 
 impl<'a> FittingRoom<'a> {
-    /// Prepares the body of a job.
-    ///
-    /// # Errors
-    /// When the body's surface is not closed.
     pub fn new(spec: &'a JobSpec, body: &'a Body) -> Result<Self> {
         let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).origin(Origin::Field)?;
         Ok(Self { spec, body, field })
     }
 
-    /// Drapes a style as its study does. Returns the outcome, and the ease of the drape at every level.
-    ///
-    /// # Errors
-    /// When the style cannot be meshed, or the simulator refuses.
+    /// Drapes as the study does. Returns the ease of the drape at every level too.
     pub fn outcome(&self, style: &Style) -> Result<(Outcome, Vec<(String, f64)>)> {
         let Draped { garb, drape, outcome } = self.draped(style)?;
         Ok((outcome, self.fitting(&garb).eases_on(&drape)?))
@@ -65,10 +57,7 @@ impl<'a> FittingRoom<'a> {
         Ok(Draped { garb, drape, outcome })
     }
 
-    /// Drapes a style as its study does, and reads the drape.
-    ///
-    /// # Errors
-    /// When the style cannot be meshed, or the simulator refuses.
+    /// Drapes as the study does.
     pub fn drape(&self, style: &Style) -> Result<(Redraped, Readings)> {
         let Draped { garb, drape, outcome } = self.draped(style)?;
         let garment = garb.meshes.finest()?;
@@ -86,9 +75,6 @@ impl<'a> FittingRoom<'a> {
 
     /// Scatter of readings between coarse drapes from slightly different starts: standard deviations, in the units of
     /// the readings. Drapes scatter since cloth can come to rest in many nearly equal ways.
-    ///
-    /// # Errors
-    /// When the style cannot be meshed, or the simulator refuses.
     pub fn scatter(&self, style: &Style) -> Result<Readings> {
         let meshes = self.coarse(style)?;
         let garment = meshes.finest()?;
@@ -111,7 +97,7 @@ impl<'a> FittingRoom<'a> {
         Ok(all.first().map_or_else(Readings::new, |first| first.iter().filter_map(scatter).collect()))
     }
 
-    /// Meshes of a style except the finest.
+    /// All meshes but the finest.
     fn coarse(&self, style: &Style) -> Result<Meshes> {
         let mut meshes = Meshes::of(style, self.spec.edge_length_m)?;
         if meshes.0.len() > 1 {
@@ -122,9 +108,6 @@ impl<'a> FittingRoom<'a> {
 
     /// Sensitivity of all readings of a drape to each handle, per metre. The drape is coarser than that of the study.
     /// It slides without friction, since a newly sewn drape would find its place freely.
-    ///
-    /// # Errors
-    /// When the style cannot be meshed, or the simulator refuses.
     pub fn answers(&self, style: &Style, handles: &[Handle]) -> Result<Answers> {
         let garb = self.garb(style, self.coarse(style)?);
         let drape = self.fitting(&garb).simulate(&mut Silent)?;
@@ -163,7 +146,6 @@ impl<'a> FittingRoom<'a> {
         Ok(Answers { of_handles, is_stable: response.is_stable() })
     }
 
-    /// Adds the job's fabric to a style and its meshes.
     fn garb(&self, style: &Style, meshes: Meshes) -> Garb {
         Garb { style: style.clone(), meshes: Arc::new(meshes), fabric: self.spec.fabric.clone() }
     }
@@ -174,14 +156,12 @@ impl<'a> FittingRoom<'a> {
     }
 }
 
-/// A style that was draped.
 struct Draped {
     garb: Garb,
     drape: Drape,
     outcome: Outcome,
 }
 
-/// Linear response of a drape to the handles.
 pub struct Answers {
     /// Sensitivity of the readings to each handle, in their units per metre.
     pub of_handles: Vec<Sensitivity>,

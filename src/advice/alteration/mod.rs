@@ -34,9 +34,9 @@ use results::Sits;
 use spec::{JobSpec, Study};
 use store::{InOrigin, Origin, Result, StudyError};
 
-/// Movement of a handle by which its effect is found, m.
+/// Movement of a handle by which its effect is found.
 const STEP_M: f64 = 0.002;
-/// Departure of an ease from its target that counts as none, mm: the step of drawn amounts.
+/// Departure of an ease from its target that counts as none: the step of drawn amounts.
 const SLACK_MM: f64 = 0.5;
 /// Greatest number of drapes in a search, the first of them of the unchanged pattern.
 const MOST_DRAPES: usize = 3;
@@ -44,36 +44,30 @@ const MOST_DRAPES: usize = 3;
 /// Derivative of every level (m per m) or reading (its unit per m) with respect to a handle.
 type Sensitivity = BTreeMap<String, f64>;
 
-/// Request for an alteration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wish {
-    /// Name of the garment; needed where the study has several.
+    /// Needed where the study has several.
     pub garment: Option<String>,
-    /// Name of the subject; needed where the study has several.
+    /// Needed where the study has several.
     pub subject: Option<String>,
-    /// Name of the size to change.
     pub size: String,
     /// Least and greatest values: of ease at levels, mm, in place of the intended fit's; and of readings of the drape,
     /// in their units.
     pub targets: BTreeMap<String, [f64; 2]>,
-    /// Greatest amount of every handle in either direction, mm; `None` for [`Handle::most_mm`] of each.
+    /// Greatest amount of every handle in either direction; `None` for [`Handle::most_mm`] of each.
     pub limit_mm: Option<f64>,
-    /// Handles that must not move.
     pub without: Vec<Handle>,
-    /// Given amounts of handles, mm. If there are any, no other handle moves.
+    /// Given amounts of handles. If there are any, no other handle moves.
     pub moves_mm: Vec<(Handle, f64)>,
     /// True to drape the changed pattern even without a target for a reading.
     pub is_draped: bool,
     /// True to change all sizes of the garment alike and write them as a nest. The grade stays.
     pub is_nest: bool,
-    /// Standard for the DXF file of the changed pattern.
     pub standard: Standard,
 }
 
 impl Wish {
-    /// Request for the ease of the intended fit, for a subject in a size of a garment, by any handle and without a
-    /// drape.
-    #[must_use]
+    /// Asks for the ease of the intended fit, by any handle and without a drape.
     pub fn of(garment: &str, subject: &str, size: &str) -> Self {
         Self {
             garment: Some(garment.to_owned()),
@@ -90,12 +84,9 @@ impl Wish {
     }
 }
 
-/// A handle that moves.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MovedHandle {
-    /// Name of the handle.
     pub handle: &'static str,
-    /// Amount by which it moves, mm.
     pub amount_mm: f64,
     /// Effect of a positive amount, in words.
     pub does: &'static str,
@@ -107,24 +98,19 @@ pub struct MovedHandle {
     pub serves: Vec<String>,
 }
 
-/// Ease at a level, before and after.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AlteredLevel {
-    /// Level of the body, such as `chest`.
     pub level: String,
-    /// Least and greatest target ease, mm; `None` without a target.
+    /// Least and greatest; `None` without a target.
     pub target_mm: Option<[f64; 2]>,
-    /// Ease before, mm.
     pub before_mm: f64,
-    /// Ease that the change promises, mm.
     pub promised_mm: f64,
-    /// Ease of the written pattern when it is read again, mm.
+    /// Ease of the written pattern when it is read again.
     pub achieved_mm: f64,
 }
 
 impl AlteredLevel {
-    /// Position of an ease, mm, relative to the target; `None` without a target.
-    #[must_use]
+    /// `None` without a target.
     pub fn sits(&self, ease_mm: f64) -> Option<Sits> {
         self.target_mm.map(|[least, most]| match ease_mm {
             ease_mm if ease_mm < least - SLACK_MM => Sits::Tight,
@@ -133,8 +119,7 @@ impl AlteredLevel {
         })
     }
 
-    /// True if the achieved ease lies within the target, or the level has none.
-    #[must_use]
+    /// True also for a level without a target.
     pub fn is_met(&self) -> bool {
         self.sits(self.achieved_mm).is_none_or(|sits| sits == Sits::AsMeant)
     }
@@ -143,36 +128,31 @@ impl AlteredLevel {
 /// A quantity that may have a target, with its present value.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Standing {
-    /// Name of the level or reading.
+    /// Level or reading.
     pub name: String,
     /// `mm`, `deg` or `kPa`.
     pub unit: &'static str,
-    /// Present value, in `unit`.
     pub value: f64,
     /// True for the ease of the flat pattern at a level, false for a reading of the drape.
     pub is_ease: bool,
 }
 
-/// A reading of the drape, before and after.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AlteredReading {
-    /// Name of the reading, such as `off_neck_side`.
+    /// Such as `off_neck_side`.
     pub reading: String,
     /// `mm`, `deg` or `kPa`.
     pub unit: &'static str,
-    /// Least and greatest target value.
+    /// Least and greatest.
     pub target: [f64; 2],
     /// Value on the drape of the unchanged pattern.
     pub before: f64,
-    /// Value that the change promises.
     pub promised: f64,
     /// Value on the drape of the changed pattern.
     pub achieved: f64,
 }
 
 impl AlteredReading {
-    /// True if the achieved value lies within the target.
-    #[must_use]
     pub fn is_met(&self) -> bool {
         within(self.target, self.achieved)
     }
@@ -184,26 +164,17 @@ fn within([least, most]: [f64; 2], value: f64) -> bool {
     (least - near..=most + near).contains(&value)
 }
 
-/// Drape of the changed pattern.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Redraped {
-    /// True if the cloth came to rest.
     pub converged: bool,
-    /// Error indicator EI.
     pub ei: f64,
-    /// Deepest penetration into the body, mm.
     pub penetration_max_mm: f64,
-    /// Height of the hem in front minus its height behind, mm.
     pub hem_front_over_back_mm: Option<f64>,
-    /// Greatest pressure, kPa.
     pub most_kpa: Option<f64>,
-    /// Number of folds under tension.
     pub drag_lines: usize,
 }
 
 impl Redraped {
-    /// Summary of the drape in a line.
-    #[must_use]
     pub fn words(&self) -> String {
         let rest = if self.converged { "at rest" } else { "not at rest" };
         let hem = self.hem_front_over_back_mm.map_or(String::new(), |mm| format!(", hem {mm:+.0} mm in front"));
@@ -216,22 +187,17 @@ impl Redraped {
     }
 }
 
-/// An altered pattern.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Alteration {
-    /// Name of the garment in the study.
     pub garment: String,
-    /// Name of the subject in the study.
     pub subject: String,
-    /// Name of the changed size.
     pub size: String,
-    /// Figures of the subject that no girth tells, with the handles for them.
+    /// Figures of the subject that no girth tells.
     pub figures: Vec<ForFigure>,
-    /// Handles that move.
     pub moves: Vec<MovedHandle>,
-    /// Ease at every level, from the neck down.
+    /// Levels from the neck down.
     pub levels: Vec<AlteredLevel>,
-    /// Readings of the drape that have a target.
+    /// Readings that have a target.
     pub readings: Vec<AlteredReading>,
     /// Number of times that the garment was draped.
     pub drapes: usize,
@@ -239,7 +205,6 @@ pub struct Alteration {
     pub remarks: Vec<String>,
     /// Drape of the changed pattern, where the request has one.
     pub drape: Option<Redraped>,
-    /// Signs of a misfit on that drape.
     pub signs: Vec<SignRead>,
     /// True if the pattern is written in the files of the source, in which nothing but coordinates of what moves changes.
     /// False if it is written anew.
@@ -250,18 +215,12 @@ pub struct Alteration {
 }
 
 impl Alteration {
-    /// True if all targets are met.
-    #[must_use]
     pub fn is_met(&self) -> bool {
         self.levels.iter().all(AlteredLevel::is_met) && self.readings.iter().all(AlteredReading::is_met)
     }
 }
 
 /// Finds the least change that brings every level and reading with a target into it, or applies the given amounts.
-///
-/// # Errors
-/// [`StudyError::NotFound`] for a garment, subject or size that the study does not have, and for a target that is
-/// neither a level nor a reading. Others when body, pattern or simulator fail, or a handle cannot move so far.
 pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
     let Asked { spec, others, target } = asked(study, wish)?;
     let body = spec.person.body()?;
@@ -327,23 +286,17 @@ fn summed(figures: &[figure::Asked]) -> Vec<(Handle, f64)> {
     moves.into_iter().filter(|(_, amount_m)| *amount_m != 0.0).collect()
 }
 
-/// Names of the pieces whose outlines differ.
 fn changed_pieces(style: &Style, changed: &Style) -> Vec<String> {
     let pairs = style.pieces.iter().zip(&changed.pieces).filter(|(was, is)| was.outline() != is.outline());
     pairs.map(|(was, _)| was.id.clone()).collect()
 }
 
-/// Drapes a style on a body by FEM-GS, as its study does. Returns the outcome, and the ease of the drape at every
-/// level.
+/// Drapes by FEM-GS, as the study does. Returns the ease of the drape at every level too.
 pub(crate) fn outcome(spec: &JobSpec, style: &Style, body: &Body) -> Result<(Outcome, Vec<(String, f64)>)> {
     FittingRoom::new(spec, body)?.outcome(style)
 }
 
-/// Quantities that may have a target, for a size on a subject, with their present values: ease at every level, and
-/// readings of the drape.
-///
-/// # Errors
-/// As [`alter`].
+/// Ease at every level and readings of the drape, for a size on a subject.
 pub fn standing(study: &Study, wish: &Wish) -> Result<Vec<Standing>> {
     let Asked { spec, target, .. } = asked(study, wish)?;
     let body = spec.person.body()?;
@@ -361,13 +314,10 @@ pub fn standing(study: &Study, wish: &Wish) -> Result<Vec<Standing>> {
     Ok(eases.map(ease).chain(readings.into_iter().map(read)).collect())
 }
 
-/// Jobs and target ease of a request, found in the study.
 struct Asked {
-    /// Job of the requested size on the subject.
     spec: JobSpec,
     /// Jobs of the garment's other sizes on the subject.
     others: Vec<JobSpec>,
-    /// Target ease of the garment.
     target: Target,
 }
 

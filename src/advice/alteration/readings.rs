@@ -18,16 +18,13 @@ use store::{InOrigin, Origin, Result};
 /// Number of directions to either side of front, back, right or left that belong to it: a quarter of all directions.
 const QUARTER: usize = DIRECTIONS / 8;
 
-/// A reading of a drape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading {
-    /// Value in its unit.
     pub value: f64,
     /// `mm`, `deg` or `kPa`.
     pub unit: &'static str,
 }
 
-/// Readings of a drape by name.
 pub type Readings = BTreeMap<String, Reading>;
 
 /// A style on a body, with the lines of the style on its mesh.
@@ -45,10 +42,6 @@ pub struct Place<'a> {
 }
 
 impl<'a> Place<'a> {
-    /// Places the lines of a style on its mesh.
-    ///
-    /// # Errors
-    /// When the body has no surface.
     pub fn new(body: &'a Body, style: &'a Style, garment: &'a Garment, fabric: &'a Fabric) -> Result<Self> {
         let surface = Surface::new(&body.mesh).origin(Origin::Measure)?;
         let points = style.points_of_measure();
@@ -63,9 +56,6 @@ impl<'a> Place<'a> {
 
     /// Reads a drape whose vertices are at `positions`. `drawn` is its flat mesh, which may differ slightly from the
     /// mesh with the lines.
-    ///
-    /// # Errors
-    /// When a triangle of the pattern mesh has no area.
     pub fn readings(&self, drawn: &Garment, positions: &[V3]) -> Result<Readings> {
         let sewn = Sewn::new(drawn, self.fabric, positions).origin(Origin::Measure)?;
         let mut found = Readings::new();
@@ -103,7 +93,7 @@ impl<'a> Place<'a> {
     }
 }
 
-/// Mean of the known gaps; `None` without any.
+/// `None` without a known gap.
 fn mean<'g>(gaps_m: impl Iterator<Item = &'g Option<f64>>) -> Option<f64> {
     let known: Vec<f64> = gaps_m.flatten().copied().collect();
     (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64)

@@ -16,11 +16,11 @@ struct Sign {
     handles: &'static [Handle],
 }
 
-/// Difference of heights of an edge that the eye sees on a standing figure, mm: 20 mm over half a girth is a slope of 3
+/// Difference of heights of an edge that the eye sees on a standing figure: 20 mm over half a girth is a slope of 3
 /// degrees, as is that of a side seam.
 const SLANT_MM: f64 = 20.0;
 const LEAN_DEG: f64 = 3.0;
-/// Distance from the skin at which the end of a shoulder seam no longer rests on it, mm: cloth, and a layer below it.
+/// Distance from the skin at which the end of a shoulder seam no longer rests on it: cloth, and a layer below it.
 const OFF_MM: f64 = 12.0;
 
 const SIGNS: [Sign; 8] = {
@@ -77,26 +77,20 @@ const fn sign(
     Sign { reading, beyond, words, cause, handles }
 }
 
-/// A sign on a drape.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SignRead {
-    /// Sign, in words.
     pub sign: &'static str,
-    /// Name of the reading.
     pub reading: &'static str,
     /// Value of the reading, less that which the pattern is drawn with.
     pub value: f64,
-    /// Unit of the reading.
     pub unit: &'static str,
     /// Magnitude of the reading beyond which it is a sign.
     pub beyond: f64,
-    /// Likely cause.
     pub cause: &'static str,
-    /// Handles of the style for it.
     pub handles: Vec<&'static str>,
 }
 
-/// Signs on a drape of a style. An edge that is drawn lower behind, as that of trousers, is no sign.
+/// An edge that is drawn lower behind, as that of trousers, is no sign.
 pub fn read(readings: &Readings, style: &Style) -> Vec<SignRead> {
     let lines = style.hang_lines();
     let drawn_mm = |reading: &str| match reading {

@@ -11,37 +11,25 @@ use store::{Result, StudyError};
 /// missed by more than twice its scatter, which seldom happens by chance.
 const PER_SCATTER: f64 = 0.25;
 
-/// A change of a pattern, and the drapes by which it was found.
 pub struct Tried {
-    /// Amount of each handle of the bench, m.
+    /// Amounts of the bench's handles, m.
     pub amounts: Amounts,
     /// Readings of the unchanged pattern; empty where no reading has a target.
     before: Readings,
-    /// Readings that the change promises.
     promised: Readings,
-    /// Drape of the changed pattern.
     pub after: Option<(Redraped, Readings)>,
-    /// Number of times that the garment was draped.
     pub drapes: usize,
-    /// Remarks on the search.
     pub remarks: Vec<String>,
 }
 
 impl Tried {
-    /// Finds the change by the flat pattern alone.
-    ///
-    /// # Errors
-    /// When a handle cannot move.
     pub fn flat(bench: &Bench) -> Result<Self> {
         let (before, promised) = (Readings::new(), Readings::new());
         let amounts = bench.found(&[])?;
         Ok(Self { amounts, before, promised, after: None, drapes: 0, remarks: Vec::new() })
     }
 
-    /// Finds the change as [`Self::flat`] does, and drapes the changed pattern. A failure to drape becomes a remark.
-    ///
-    /// # Errors
-    /// As [`Self::flat`].
+    /// Change as by [`Self::flat`], draped. A failure to drape becomes a remark.
     pub fn flat_and_draped(bench: &Bench, room: &FittingRoom) -> Result<Self> {
         let flat = Self::flat(bench)?;
         match room.drape(&bench.moved(&flat.amounts)?) {
@@ -52,9 +40,6 @@ impl Tried {
 
     /// Finds a change that meets the targets of readings: predicts, drapes and corrects until they are met, or
     /// [`MOST_DRAPES`] is reached. Returns the change that misses least.
-    ///
-    /// # Errors
-    /// When a target is neither a level nor a reading, a handle cannot move, or the simulator refuses.
     pub fn on(room: &FittingRoom, bench: &Bench) -> Result<Self> {
         let (redraped, before) = room.drape(bench.style)?;
         known(bench, &before)?;
@@ -103,7 +88,6 @@ impl Tried {
         self.after.as_ref().map_or(f64::MAX, |(_, readings)| missed(wish, readings))
     }
 
-    /// Readings with a target, before and after.
     pub fn readings(&self, wish: &Wish) -> Vec<AlteredReading> {
         let Some((_, after)) = &self.after else { return Vec::new() };
         let reading = |(name, target): (&String, &[f64; 2])| {
@@ -120,7 +104,6 @@ impl Tried {
     }
 }
 
-/// Remark on a drape that is not stable.
 const UNSTABLE: &str =
     "the coarse drape is about to fold otherwise: what is foreseen of the drape is no guide, what is achieved is seen";
 

@@ -15,27 +15,22 @@ use spec::{JobSpec, patterns};
 use store::files::SourceFile;
 use store::{InOrigin, Origin, Result};
 
-/// Distance of an outline of a file that is read again from the changed style, mm, from which it is told. A file that is
+/// Distance of an outline of a file that is read again from the changed style, from which it is told. A file that is
 /// further off than its curves of few points explain is not this style.
 const APART_MM: f64 = 0.3;
 
-/// A changed pattern in files.
 pub struct Written {
-    /// Files by name: the pattern, its seam file if it has one, and a sheet of old and new outlines.
+    /// Pattern, its seam file if it has one, and a sheet of old and new outlines, by name.
     pub files: Vec<(String, Vec<u8>)>,
     /// Style as read from the files.
     pub again: Style,
     /// True if the files of the pattern are those of the source, with changed coordinates.
     pub keeps_source: bool,
-    /// Remarks on the files.
     pub remarks: Vec<String>,
 }
 
 /// Writes a job's style with moved handles into files called `name`: DXF and seam file, or GarmentCode JSON where the
 /// pattern holds its own seams. `standard` is that of a file that is written anew.
-///
-/// # Errors
-/// When the drawn pieces cannot be changed in this way, or the files cannot be read again.
 pub fn written(
     spec: &JobSpec,
     [style, changed]: [&Style; 2],
@@ -61,9 +56,6 @@ pub fn written(
 
 /// Writes all sizes of a garment, changed alike, into one file called `name`: the source where it holds all of them,
 /// otherwise a new DXF with every piece in every size. Reads the file again before returning it.
-///
-/// # Errors
-/// When a size cannot be changed in this way or read again, or the pattern holds its own seams, which no nest can.
 pub fn nest(
     spec: &JobSpec,
     others: &[JobSpec],
@@ -95,7 +87,6 @@ pub fn nest(
     Ok(vec![(name, bytes)])
 }
 
-/// Reason why the files of a pattern are not kept.
 struct NotKept(String);
 
 impl<E: std::fmt::Display> From<E> for NotKept {
@@ -104,12 +95,11 @@ impl<E: std::fmt::Display> From<E> for NotKept {
     }
 }
 
-/// The files of a pattern, changed.
 struct Kept {
     pattern: SourceFile,
     seams: SourceFile,
     unit: Option<patterns::Unit>,
-    /// Greatest distance of a curve of few points from where its points would be, m.
+    /// Greatest distance of a curve of few points from where its points would be.
     departs_m: f64,
 }
 
@@ -135,7 +125,6 @@ fn kept_nest(
     Ok(files_of(&kept.pattern))
 }
 
-/// Changes some sizes of a job's pattern in its files.
 fn kept(spec: &JobSpec, sizes: &[&str], moves: &[(Handle, f64)], name: &str) -> std::result::Result<Kept, NotKept> {
     let unit = spec.unit.as_deref().and_then(patterns::unit_of);
     let parts = spec.pattern.parts();
@@ -185,10 +174,7 @@ fn kept(spec: &JobSpec, sizes: &[&str], moves: &[(Handle, f64)], name: &str) -> 
 }
 
 impl Kept {
-    /// Reads the size of a job again from the files.
-    ///
-    /// # Errors
-    /// The reason, if the files do not make the changed style.
+    /// Reads the size of a job again. Fails where the files do not make the changed style.
     fn checked(self, spec: &JobSpec, changed: &Style) -> std::result::Result<Written, NotKept> {
         let again = patterns::read_style(&self.pattern, Some(&self.seams), Some(&spec.size), self.unit)?;
         let apart_mm = mm(outlines_apart_m(&again, changed));
@@ -211,7 +197,6 @@ fn files_of(pattern: &SourceFile) -> Vec<(String, Vec<u8>)> {
     pattern.parts().into_iter().map(|part| (format!("{within}{}", part.name), part.bytes.to_vec())).collect()
 }
 
-/// Writes a changed size as a new DXF.
 fn anew(
     spec: &JobSpec,
     seams: &SourceFile,
@@ -240,7 +225,6 @@ fn redrawn(spec: &JobSpec, seams: &SourceFile, moves: &[(Handle, f64)]) -> Resul
     Ok((pieces, SourceFile { name: seams.name.clone(), bytes: reseamed.into() }))
 }
 
-/// Texts for the head of a file.
 fn texts(spec: &JobSpec) -> [(String, String); 2] {
     [("Style Name".to_owned(), spec.garment.clone()), ("Units".to_owned(), "METRIC".to_owned())]
 }

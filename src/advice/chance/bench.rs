@@ -16,49 +16,40 @@ use store::{InOrigin, Origin, Result};
 /// Standard deviations from the mean of a normal distribution to an end of its 80 % interval.
 const REACH: f64 = 1.281_551_565_544_6;
 
-/// A level of a size.
 pub(super) struct Level {
-    /// Level of the body, such as `chest`.
     pub name: String,
     /// Ease that is meant; `None` without a target.
     pub band: Option<Band>,
-    /// Ease on the median body, m.
+    /// Ease on the median body.
     middle_m: f64,
     /// Derivative of the ease with respect to the logarithm of each dimension, m, in the order of
     /// the bench's `dimensions`.
     slopes: Vec<f64>,
     /// Index of the part of the garment to which the level belongs.
     part: usize,
-    /// Standard deviation of the garment's length at the level, m.
+    /// Standard deviation of the garment's length at the level.
     made_m: f64,
 }
 
-/// A size on a subject.
 pub(super) struct Sized {
-    /// Name of the size, such as `M`.
     pub size: String,
-    /// Levels at which the size has an ease.
     pub levels: Vec<Level>,
 }
 
 impl Sized {
-    /// Ease that is meant at each level.
     pub fn bands(&self) -> Vec<Option<Band>> {
         self.levels.iter().map(|level| level.band).collect()
     }
 
-    /// Draws how far a made garment is off its pattern at each level, m. Levels of the same part share one draw.
+    /// Draws how far a made garment is off its pattern at each level. Levels of the same part share one draw.
     pub fn made_m(&self, draw: &mut Draw) -> Vec<f64> {
         let made: [f64; PARTS] = std::array::from_fn(|_| draw.normal());
         self.levels.iter().map(|level| level.made_m * made[level.part]).collect()
     }
 }
 
-/// All sizes of a garment on a subject.
 pub(super) struct Bench {
-    /// Measurements that were read on the subject.
     pub readings: Measurements,
-    /// Sizes of the garment, in order.
     pub sizes: Vec<Sized>,
     likely: Likely,
     middle: Measurements,
@@ -87,7 +78,7 @@ fn part(level: &str) -> (usize, f64) {
 }
 
 impl Bench {
-    /// Prepares the sizes of a garment for a subject with some read measurements. On a scan the tape reads more.
+    /// On a scan the tape reads more.
     pub fn new(
         styles: &[(String, Style)],
         target: &Target,
@@ -130,7 +121,7 @@ impl Bench {
         self.likely.person(&std::array::from_fn(|_| draw.normal()))
     }
 
-    /// Draws the ease of a size at every level on a person, m, with the errors of a made garment.
+    /// Draws the ease of a size at every level on a person, with the errors of a made garment.
     pub fn eases_m(&self, size: &Sized, person: &Measurements, draw: &mut Draw) -> Vec<f64> {
         let off = self.off(&self.middle, person);
         size.levels.iter().zip(size.made_m(draw)).map(|(level, made_m)| level.on(&off) + made_m).collect()
@@ -151,7 +142,7 @@ impl Bench {
         })
     }
 
-    /// Levels of a size on the median body. For a scan they are corrected by the ease on the scan.
+    /// Levels on the median body. For a scan they are corrected by the ease on the scan.
     fn levels(
         &self,
         style: &Style,
@@ -212,7 +203,6 @@ impl Level {
     }
 }
 
-/// Tape measurements of a scanned body.
 fn read_on(body: &Body, measurements: &Measurements) -> Measurements {
     let mut read = measurements.clone();
     for dimension in Dimension::ALL {

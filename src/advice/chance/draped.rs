@@ -27,38 +27,30 @@ use store::{InOrigin, Origin, Result};
 /// 4.4.2].
 const OFFSET_MU: [f64; 2] = [2.1, 4.1];
 
-/// Result of draping some draws of one size by FEM-GS.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DrapedChance {
-    /// Number of draws that were draped.
     pub draws: usize,
-    /// Number of drapes that came to rest.
     pub at_rest: usize,
     /// Probability that every level of the drape is within its target.
     pub fits: Share,
-    /// Lower end, middle and upper end of the 80 % interval of the drape's ease, mm, by level.
+    /// Lower end, middle and upper end of the 80 % interval of the drape's ease, by level.
     pub ease_mm: BTreeMap<String, [f64; 3]>,
-    /// Height of the hem in front minus its height behind, mm, likewise.
+    /// Height of the hem in front minus its height behind, likewise.
     pub hem_front_over_back_mm: Option<[f64; 3]>,
-    /// Greatest pressure, kPa, likewise.
+    /// Greatest pressure, likewise.
     pub most_kpa: Option<[f64; 3]>,
-    /// Cantilever bending length along the grain line, mm, likewise.
+    /// Cantilever bending length along the grain line, likewise.
     pub bending_length_mm: [f64; 3],
-    /// Reasons why draws could not be draped.
     pub refused: Vec<String>,
 }
 
-/// Measurements of one draped draw.
 struct Drawn {
     outcome: Outcome,
     eases_m: Vec<f64>,
     bending_m: f64,
 }
 
-/// Drapes draws of a size.
-///
-/// # Errors
-/// When the pattern cannot be read or meshed. A draw that cannot be draped is no error.
+/// A draw that cannot be draped is no error.
 pub(super) fn draped(job: &JobSpec, bench: &Bench, question: &Question) -> Result<DrapedChance> {
     let style = stages::style(job)?;
     let meshes = Arc::new(Meshes::of(&style, job.edge_length_m)?);
@@ -90,7 +82,6 @@ pub(super) fn draped(job: &JobSpec, bench: &Bench, question: &Question) -> Resul
     })
 }
 
-/// Draws body, cloth and start, and drapes a size.
 fn drawn_and_draped(job: &JobSpec, bench: &Bench, size: &Sized, garb: &Garb, draw: &mut Draw) -> Result<Drawn> {
     let person = bench.person(draw);
     let made_m = size.made_m(draw);
@@ -120,8 +111,8 @@ fn drawn_fabric(fabric: &Fabric, draw: &mut Draw) -> Fabric {
     Fabric { bending_warp_nm, bending_weft_nm, ..fabric.clone() }
 }
 
-/// Ease at a level of the drape, m: the flat length times the stretch of the point of measure nearest to the level,
-/// less the body's length. NaN where the garment has no such level on this body.
+/// Flat length times the stretch of the point of measure nearest to the level, less the body's length. NaN where the
+/// garment has no such level on this body.
 fn worn_ease_m(outcome: &Outcome, level: &str) -> f64 {
     let points: &[&str] = match level {
         "chest" | "bust" | "underbust" => &["half_chest"],

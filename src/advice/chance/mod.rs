@@ -25,28 +25,24 @@ use report::chart::{Probable, chance_chart};
 use spec::{JobSpec, Study};
 use store::{InOrigin, Origin, Result};
 
-/// Question about the probability of fit, with the number of draws that answer it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
-    /// Name of the garment; needed where the study has several.
+    /// Needed where the study has several.
     pub garment: Option<String>,
-    /// Name of the subject; needed where the study has several.
+    /// Needed where the study has several.
     pub subject: Option<String>,
-    /// Name of the size to report level by level; `None` for the one worn most often.
+    /// Size to report level by level; `None` for the one worn most often.
     pub size: Option<String>,
-    /// Number of draws.
     pub draws: usize,
-    /// Seed of the draws.
     pub seed: u64,
     /// Factor on the measurement errors of a trained measurer.
     pub error_factor: f64,
-    /// Tolerance of half a girth of the garment, mm: one of twenty garments is off by more.
+    /// Tolerance of half a girth of the garment: one of twenty garments is off by more.
     pub tolerance_mm: f64,
     /// Number of draws to drape by FEM-GS.
     pub fem: usize,
 }
 
-/// A dimension of the subject, with its uncertainty.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LikelyDimension {
     /// Key of the dimension; it ends in the unit.
@@ -57,100 +53,78 @@ pub struct LikelyDimension {
     pub likely: [f64; 3],
 }
 
-/// A level of a size, over all draws.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LevelChance {
-    /// Level of the body, such as `chest`.
     pub level: String,
-    /// Least and greatest target ease, mm; `None` without a target.
+    /// Least and greatest; `None` without a target.
     pub target_mm: Option<[f64; 2]>,
-    /// Lower end, median and upper end of the 80 % interval of the ease, mm.
+    /// Lower end, median and upper end of the 80 % interval.
     pub ease_mm: [f64; 3],
-    /// Share of draws in which the level is too tight.
+    /// Share of draws.
     pub tight: f64,
-    /// Share of draws in which the level is too loose.
+    /// Share of draws.
     pub loose: f64,
     /// Share of draws in which the level is outside its target and the worst one.
     pub decides: f64,
 }
 
 impl LevelChance {
-    /// Share of draws in which the level is within its target.
-    #[must_use]
     pub fn as_meant(&self) -> f64 {
         1.0 - self.tight - self.loose
     }
 }
 
-/// Probabilities that a size is the one to wear, and that it fits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SizeChance {
-    /// Name of the size, such as `M`.
     pub size: String,
-    /// Probability that this is the size to wear.
     pub wear: Share,
     /// Probability that every level is within its target.
     pub fits: Share,
     /// Share of draws in which the worst level is too tight.
     pub tight: f64,
-    /// Share of draws in which the worst level is too loose.
     pub loose: f64,
     /// Share of draws in which the worst level departs from its target by more than a grade step, counting too tight
     /// double.
     pub out_of_reach: f64,
-    /// Levels of the size, from the neck down.
+    /// Levels from the neck down.
     pub levels: Vec<LevelChance>,
 }
 
 impl SizeChance {
     /// Words for the size to wear; for the nearest one where it is out of reach in more than half of the draws.
-    #[must_use]
     pub fn place(&self) -> &'static str {
         if self.out_of_reach > 0.5 { "the nearest, though none fits," } else { "the one to wear" }
     }
 
-    /// Level that decides most often; `None` where none ever does.
-    #[must_use]
+    /// `None` where none ever does.
     pub fn decides(&self) -> Option<&LevelChance> {
         let most = self.levels.iter().max_by(|a, b| a.decides.total_cmp(&b.decides));
         most.filter(|level| level.decides > 0.0)
     }
 }
 
-/// Probabilities that the sizes of a garment fit a subject.
 #[derive(Clone, Debug, Serialize)]
 pub struct Chance {
-    /// Name of the garment in the study.
     pub garment: String,
-    /// Name of the subject in the study.
     pub subject: String,
     /// Intended fit, as study files name it.
     pub intended: &'static str,
-    /// Number of draws.
     pub draws: usize,
-    /// Seed of the draws: the same seed gives the same answer.
+    /// Equal seeds give equal answers.
     pub seed: u64,
-    /// Dimensions of the subject.
     pub body: Vec<LikelyDimension>,
-    /// Sizes of the garment, in order.
     pub sizes: Vec<SizeChance>,
-    /// Name of the size that is reported level by level.
+    /// Size that is reported level by level.
     pub told: String,
     /// Drapes of that size; `None` where none were asked for.
     pub drape: Option<DrapedChance>,
 }
 
 impl Chance {
-    /// The size that is reported level by level.
-    #[must_use]
     pub fn told(&self) -> Option<&SizeChance> {
         self.sizes.iter().find(|size| size.size == self.told)
     }
 
-    /// Chart of the ease of every size at every level, with the targets.
-    ///
-    /// # Errors
-    /// When the chart cannot be drawn.
     pub fn chart(&self) -> Result<Chart> {
         let title = format!("{} on {}", self.garment, self.subject);
         let row = |size: &SizeChance, level: &LevelChance| Probable {
@@ -166,11 +140,6 @@ impl Chance {
     }
 }
 
-/// Estimates the probabilities that the sizes of a garment fit a subject.
-///
-/// # Errors
-/// [`store::StudyError::NotFound`] for a garment, subject or size that the study does not have. Others when body or
-/// pattern fail.
 pub fn chance(study: &Study, question: &Question) -> Result<Chance> {
     let (jobs, target) = asked(study, question)?;
     let first = jobs.first().ok_or(AdviceError::NoSize)?;
@@ -200,7 +169,6 @@ fn sizes_of(jobs: &[JobSpec]) -> Vec<String> {
     jobs.iter().map(|job| job.size.clone()).collect()
 }
 
-/// A job for each size of the garment on the subject, and the target ease.
 fn asked(study: &Study, question: &Question) -> Result<(Vec<JobSpec>, Target)> {
     let garments = study.garments.iter().map(|garment| garment.name.clone()).collect();
     let name = one("garment", question.garment.as_deref(), garments)?;
@@ -212,7 +180,6 @@ fn asked(study: &Study, question: &Question) -> Result<(Vec<JobSpec>, Target)> {
     Ok((jobs, garment.map_or_else(Target::default, |garment| garment.target.clone())))
 }
 
-/// Dimensions of the subject, with their intervals.
 fn known(bench: &Bench) -> Vec<LikelyDimension> {
     let scale = |dimension: Dimension, value: f64| (value * dimension.per_si() * 10.0).round() / 10.0;
     let likely_dimension = |dimension: Dimension| {

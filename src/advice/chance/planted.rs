@@ -18,16 +18,13 @@ use pattern::Style;
 use spec::{Study, bodies};
 use store::Result;
 
-/// A level, over all people.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlantedLevel {
-    /// Level of the body, such as `chest`.
     pub level: String,
-    /// Number of people on whom the garment has the level.
     pub people: usize,
     /// Share of these people whose true ease lies in the predicted 80 % interval.
     pub held: Share,
-    /// Mean width of the interval, mm.
+    /// Mean width of the interval.
     pub width_mm: f64,
 }
 
@@ -36,11 +33,8 @@ pub struct PlantedLevel {
 pub struct Reliability {
     /// Least and greatest probability of the range.
     pub told: [f64; 2],
-    /// Number of cases; a case is a size on a person.
     pub cases: usize,
-    /// Mean of the probabilities.
     pub mean: f64,
-    /// Share of cases that came true.
     pub came_true: Share,
 }
 
@@ -53,24 +47,17 @@ pub struct PlantedTally {
     pub read: Vec<&'static str>,
     /// Share of true eases within the 80 % interval, over all levels with a target.
     pub held: Share,
-    /// The same share, level by level.
     pub levels: Vec<PlantedLevel>,
-    /// Truth of the probability that a size fits, over all sizes.
     pub fits: Vec<Reliability>,
-    /// Truth of the probability that a size is the one to wear, over all sizes.
     pub wear: Vec<Reliability>,
 }
 
-/// Bounds of the ranges of probabilities.
 const RANGES: [f64; 7] = [0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0];
 
-/// Probabilities and intervals for one person, beside the truth.
 #[derive(Default)]
 struct Case {
     levels: Vec<CaseLevel>,
-    /// Probabilities that a size fits.
     fits: Vec<Told>,
-    /// Probabilities that a size is the one to wear.
     wear: Vec<Told>,
 }
 
@@ -84,13 +71,11 @@ struct CaseLevel {
 }
 
 impl CaseLevel {
-    /// True if the interval holds the true ease.
     fn is_held(&self) -> bool {
         (self.told_mm[0]..=self.told_mm[2]).contains(&self.true_mm)
     }
 }
 
-/// A probability, and the truth.
 struct Told {
     probability: f64,
     came_true: bool,
@@ -98,9 +83,6 @@ struct Told {
 
 /// Draws people of both sexes from the survey. On each reads the dimensions that are known of the subject, with errors
 /// of `error_factor`, and counts how often the truth lies where [`chance`](crate::chance::chance()) predicts.
-///
-/// # Errors
-/// Those of [`chance`](crate::chance::chance()).
 pub fn planted(study: &Study, question: &Question, people: usize, error_factor: f64) -> Result<PlantedTally> {
     let (jobs, target) = asked(study, question)?;
     let styles = jobs.iter().map(|job| Ok((job.size.clone(), stages::style(job)?))).collect::<Result<Vec<_>>>()?;
@@ -128,7 +110,6 @@ struct Plot<'a> {
 }
 
 impl Plot<'_> {
-    /// Draws a person, measures them with errors, and compares the probabilities with the truth.
     fn case(&self, number: usize) -> Result<Case> {
         let mut draw = Draw::new(Draw::new(self.question.seed ^ ((number as u64) << 32)).bits());
         let sex = if number.is_multiple_of(2) { Sex::Female } else { Sex::Male };
@@ -173,8 +154,7 @@ impl Plot<'_> {
         Ok(case)
     }
 
-    /// Body of a drawn person, and the bench of their readings; `None` where the body cannot be built or the readings
-    /// fit nobody.
+    /// `None` where the body cannot be built or the readings fit nobody.
     fn planted(&self, sex: Sex, draw: &mut Draw) -> Option<(Body, Bench)> {
         let person = Likely::anybody(sex).person(&std::array::from_fn(|_| draw.normal()));
         let body = bodies::build_body(&person).ok()?;
@@ -217,7 +197,6 @@ fn tally(cases: &[Case], read: &[Dimension]) -> PlantedTally {
     }
 }
 
-/// Groups probabilities by ranges, with the share that came true in each.
 fn reliability<'a>(told: impl Iterator<Item = &'a Told>) -> Vec<Reliability> {
     let told: Vec<&Told> = told.collect();
     let last = RANGES.len() - 2;

@@ -9,15 +9,12 @@ use geom::units::mm;
 use spec::{JobSpec, bodies};
 use store::Result;
 
-/// Departure of a draped ease from its band that counts as none, m: it would be written as 0.
+/// Departure of a draped ease from its band that counts as none: it would be written as 0.
 const SLACK_M: f64 = 0.5e-3;
-/// Deepest penetration of the cloth into the body that counts as none, m.
+/// Deepest penetration into the body that counts as none.
 const INSIDE_M: f64 = 1e-3;
 
 /// Drapes the size to wear on a share of the people whom it fits, taken evenly among them.
-///
-/// # Errors
-/// When a body cannot be built, or the simulator refuses.
 pub(super) fn agree(spec: &JobSpec, sizes: &Judged<'_>, crowd: Crowd<'_>, share: f64) -> Result<DrapedAgain> {
     let (Judged { styles, names, tally, .. }, Crowd { figures, bands }) = (sizes, crowd);
     let fitted: Vec<usize> = (0..figures.len()).filter(|person| tally.is_fitted(*person)).collect();

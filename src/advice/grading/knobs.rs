@@ -11,18 +11,18 @@ use pattern::grade::{Growth, GrowthError};
 use pattern::{Handle, Style};
 use store::{InOrigin, Origin, Result};
 
-/// Step of parameters in which sizes are sought, m.
+/// Step of parameters in which sizes are sought.
 pub const STEP_M: f64 = 1e-3;
-/// Movement of a handle by which its effect is found, m.
+/// Movement of a handle by which its effect is found.
 const TRIED_M: f64 = 5e-3;
 /// Least change of a level, m per m, by a handle that may be chosen for the level.
 const STRONG: f64 = 0.3;
 /// Shares of the greatest amount, tried in turn where a handle cannot move so far.
 const LIMITS: [f64; 5] = [1.0, 0.75, 0.5, 0.35, 0.2];
-/// Least and greatest step of half the leading girth from size to size, mm: sizes of published charts are 25 mm to
-/// 120 mm of girth apart [EN 13402-3, ASTM D5585]; the least leaves room for half sizes.
+/// Least and greatest step of half the leading girth: sizes of published charts are 25 mm to 120 mm of girth apart [EN
+/// 13402-3, ASTM D5585]; the least leaves room for half sizes.
 const STEPS_MM: [f64; 2] = [6.0, 60.0];
-/// Steps of half the leading girth from which the search starts, mm.
+/// Steps of half the leading girth from which the search starts.
 const STARTS_MM: [i32; 5] = [10, 15, 20, 30, 45];
 
 /// Handles that change a width; only these may be chosen for a level. Shortening a garment until it
@@ -39,24 +39,20 @@ const WIDTHS: [Handle; 10] = [
     Handle::Bicep,
     Handle::Cuff,
 ];
-/// Bound that stands for none, m.
+/// Bound that stands for none.
 const ANY_M: f64 = 1e3;
 
-/// A level with its target ease.
 #[derive(Clone, Debug)]
 pub struct Band {
-    /// Level of the body, such as `chest`.
     pub level: String,
-    /// Least and greatest ease, m.
+    /// Least and greatest ease.
     pub band_m: [f64; 2],
     /// Ease that decides whether a size fits: there is no greatest where the garment hangs free.
     pub decides: target::Band,
 }
 
-/// A girth that leads, with what grows with it.
 #[derive(Clone, Debug)]
 pub struct Lead {
-    /// Handle of the girth.
     pub handle: Handle,
     /// Lengths that grow with it, with their growth in 40 mm of the girth, m.
     pub told: Vec<(Handle, f64)>,
@@ -64,13 +60,10 @@ pub struct Lead {
     moves: Vec<(Handle, f64)>,
 }
 
-/// A pattern with the parameters of its grade.
 pub struct Knobs {
-    /// Growth of the base size.
     pub growth: Growth,
     /// Handles by which the sample size departs from the base, one for each level.
     pub handles: Vec<Handle>,
-    /// Girths that grow from size to size.
     pub leads: Vec<Lead>,
     /// Least and greatest departure of each handle, steps.
     limits: Vec<[i32; 2]>,
@@ -79,19 +72,17 @@ pub struct Knobs {
 /// Sizes of a series: how many, which is the sample, and at which the steps change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Run {
-    /// Number of sizes.
     pub count: usize,
     /// First size of the second group of steps; `None` for even steps.
     pub split: Option<usize>,
 }
 
 impl Run {
-    /// Index of the sample size: the lower one, where two are in the middle.
+    /// Lower one, where two are in the middle.
     pub fn sample(self) -> usize {
         self.count.saturating_sub(1) / 2
     }
 
-    /// Number of groups of equal steps.
     pub fn groups(self) -> usize {
         1 + usize::from(self.split.is_some())
     }
@@ -109,9 +100,6 @@ impl Run {
 
 impl Knobs {
     /// Chooses the handles that change the levels on `somebody`, and the girths that lead.
-    ///
-    /// # Errors
-    /// When no handle changes a level, or one parts a seam.
     pub fn of(growth: Growth, somebody: &Figure, bands: &[Band], sexes: &[Sex], limit_m: f64) -> Result<Self> {
         let levels: Vec<String> = bands.iter().map(|band| band.level.clone()).collect();
         let all: Vec<Handle> = growth.handles().collect();
@@ -147,12 +135,11 @@ impl Knobs {
         [steps(-1.0), steps(1.0)]
     }
 
-    /// Number of parameters of a run: a departure for each handle, and in each group a step for each lead.
+    /// Parameters are a departure for each handle, and in each group a step for each lead.
     fn parameters(&self, run: Run) -> usize {
         self.handles.len() + run.groups() * self.leads.len()
     }
 
-    /// Index of the parameter that is the step of a lead in a group.
     fn step_of(&self, group: usize, lead: usize) -> usize {
         self.handles.len() + group * self.leads.len() + lead
     }
@@ -162,7 +149,7 @@ impl Knobs {
         self.handles.iter().zip(turns).map(|(handle, turn)| (*handle, f64::from(*turn) * STEP_M)).collect()
     }
 
-    /// Step of a lead in a group of a series, m of half its girth.
+    /// Step of half the lead's girth.
     pub fn step_m(&self, turns: &[i32], group: usize, lead: usize) -> f64 {
         f64::from(turns[self.step_of(group, lead)]) * STEP_M
     }
@@ -183,18 +170,11 @@ impl Knobs {
         amounts
     }
 
-    /// Style of a size of a run.
-    ///
-    /// # Errors
-    /// When a seam comes apart.
     pub fn drawn(&self, turns: &[i32], run: Run, size: usize) -> Result<Style> {
         self.growth.sized(&self.amounts(turns, run, size)).origin(Origin::Grade)
     }
 
-    /// Checks that the seams agree in the outer sizes of a run whose steps are the least.
-    ///
-    /// # Errors
-    /// With the seam that comes apart.
+    /// Checks the seams of the outer sizes of a run whose steps are the least. Fails with the seam that comes apart.
     pub fn check(&self, run: Run) -> Result<()> {
         let turns = self.start(run, (STEPS_MM[0] * 1e-3 / STEP_M) as i32);
         self.drawn(&turns, run, 0)?;
@@ -208,7 +188,6 @@ impl Knobs {
         (0..self.parameters(run)).map(|parameter| if parameter < departures { 0 } else { step }).collect()
     }
 
-    /// Series from which a search starts.
     pub fn starts(&self, run: Run) -> Vec<Vec<i32>> {
         STARTS_MM.iter().map(|step| self.start(run, *step)).collect()
     }
@@ -264,9 +243,6 @@ impl Knobs {
 
     /// Requirements of every person on every size of a run at each level, linear in the parameters: the ease on the
     /// base, plus the effect of each parameter. A level that the base does not cover on a person requires nothing.
-    ///
-    /// # Errors
-    /// When a handle cannot move at all.
     pub fn asks(&self, figures: &[Figure], bands: &[Band]) -> Result<Effects> {
         let levels: Vec<String> = bands.iter().map(|band| band.level.clone()).collect();
         let tried = |moves: &[(Handle, f64)]| -> Result<Vec<Vec<f64>>> {
@@ -295,7 +271,6 @@ pub struct Effects {
 }
 
 impl Effects {
-    /// Requirements on each size of a run.
     pub fn asks(&self, run: Run, bands: &[Band]) -> Vec<Vec<Asks>> {
         let asked = |size: usize, person: usize, level: usize| -> Asked {
             let departures = self.departures.iter().map(|by| by[person][level]);
@@ -332,7 +307,6 @@ pub fn correct(asks: &mut [Asks], eases: &[Vec<Option<f64>>], turns: &[i32], ban
     }
 }
 
-/// Error of a pattern without a girth that leads.
 fn no_lead(growth: &Growth, all: &[Handle]) -> AdviceError {
     let handles: Vec<&str> = all.iter().map(|handle| handle.as_str()).collect();
     let refused: Vec<String> = growth.refused().iter().map(|(_, reason)| format!("; {reason}")).collect();

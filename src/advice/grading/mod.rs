@@ -33,26 +33,23 @@ use spec::{JobSpec, Study, patterns};
 use store::{InOrigin, Origin, Result, StudyError};
 use wardrobe::seams::Specification;
 
-/// Greatest amount of a handle in either direction, m.
+/// Greatest amount of a handle in either direction.
 const LIMIT_M: f64 = 0.150;
 /// Accepted counts of sizes and of people.
 const SIZES: std::ops::RangeInclusive<usize> = 1..=40;
 const PEOPLE: std::ops::RangeInclusive<usize> = 20..=20_000;
 
-/// Request for a grading: population and garment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GradeWish {
-    /// Name of the garment; needed where the study has several.
+    /// Needed where the study has several.
     pub garment: Option<String>,
-    /// Number of sizes; `None` for that of the pattern.
+    /// `None` for the number of the pattern.
     pub sizes: Option<usize>,
     /// Number of people for whom the sizes are sought.
     pub people: usize,
-    /// Number of people held out, on whom the sizes are judged.
     pub held_out: usize,
-    /// Seed of the draw of people.
     pub seed: u64,
-    /// Name of the base: the pattern's size from which the others are made. `None` for the middle one.
+    /// Size from which the others are made; `None` for the middle one.
     pub base: Option<String>,
     /// True to make all steps between sizes equal.
     pub is_even: bool,
@@ -78,133 +75,113 @@ impl Default for GradeWish {
     }
 }
 
-/// A handle of a size, with its amount.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Turn {
-    /// Name of the handle.
     pub handle: &'static str,
-    /// Amount relative to the base, mm.
+    /// Amount relative to the base.
     pub amount_mm: f64,
 }
 
-/// A dimension of the people who wear a size.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Range {
-    /// Key of the dimension, such as `chest_girth_mm`.
+    /// Such as `chest_girth_mm`.
     pub dimension: &'static str,
     /// 5th percentile, median and 95th percentile, in the unit of the key.
     pub values: [f64; 3],
 }
 
-/// A size of a set, with shares of the people held out.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SizeShare {
-    /// Name of the size, such as `M`.
     pub size: String,
-    /// Share whom the size fits, %.
+    /// Share whom the size fits.
     pub fits_percent: f64,
-    /// Share who wear the size, since it fits and no smaller one does, %.
+    /// Share who wear the size, since it fits and no smaller one does.
     pub worn_percent: f64,
-    /// Amounts of handles relative to the base; empty for the pattern's own sizes.
+    /// Amounts relative to the base; empty for the pattern's own sizes.
     pub turns: Vec<Turn>,
-    /// Dimensions of the people who wear the size; empty where nobody does.
+    /// Empty where nobody wears the size.
     pub wearers: Vec<Range>,
 }
 
-/// A set of sizes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SizeSet {
     /// `own` for the pattern's own sizes, or `new`.
     pub set: &'static str,
-    /// Share of the people of the search whom a size fits, %.
+    /// Share of the people of the search whom a size fits.
     pub sought_percent: f64,
-    /// Share of the people held out whom a size fits, %.
+    /// Share of the people held out whom a size fits.
     pub held_out_percent: f64,
     /// Half of the 95 % interval of that share, in percentage points.
     pub within_percent: f64,
-    /// Sizes, the smallest first.
+    /// Smallest first.
     pub sizes: Vec<SizeShare>,
 }
 
 /// Shares of both sets at a level: the pattern's own sizes, then the new ones.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LevelShare {
-    /// Level of the body, such as `chest`.
     pub level: String,
-    /// Least and greatest target ease, mm.
+    /// Least and greatest.
     pub target_mm: [f64; 2],
-    /// Share of the people held out whose size to wear is within the target here, %.
+    /// Share of the people held out whose size to wear is within the target here.
     pub within_percent: [f64; 2],
-    /// Share of the people held out whom no size fits for whom this level is the worst, %.
+    /// Share of the people held out whom no size fits for whom this level is the worst.
     pub fails_percent: [f64; 2],
 }
 
 /// Shares of both sets in a part of the people held out: the pattern's own sizes, then the new ones.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PartShare {
-    /// Least and greatest girth of the body at the first level, mm.
+    /// Least and greatest girth of the body at the first level.
     pub from_to_mm: [f64; 2],
-    /// Share of the part whom a size fits, %.
     pub fits_percent: [f64; 2],
 }
 
 /// A length that grows with a girth from size to size.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Grown {
-    /// Handle of the length.
     pub handle: &'static str,
-    /// Handle of the girth.
     pub with: &'static str,
-    /// Growth in 40 mm of the girth, mm; of a girth half of it.
+    /// Growth in 40 mm of the girth; of a girth half of it.
     pub of_40_mm: f64,
-    /// Growth of the length from size to size, mm; that of the second group last, where steps change.
+    /// Growth from size to size; that of the second group last, where steps change.
     pub steps_mm: Vec<f64>,
 }
 
 /// Result of dressing some of the people whom a size fits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DrapedAgain {
-    /// Number of people who were draped.
     pub people: usize,
-    /// Number of people whom the size fits on the drape too.
     pub agree: usize,
     /// Objections of each other drape.
     pub against: Vec<String>,
 }
 
-/// A grading for a population, beside the pattern's own.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Grading {
-    /// Name of the garment in the study.
     pub garment: String,
-    /// Name of the base size.
     pub base: String,
-    /// Intended fit, as study files name it.
     pub intended: &'static str,
     /// Sexes of the people, who are equally many of each.
     pub sexes: Vec<Sex>,
-    /// Numbers of people whose bodies could be built: of the search, and held out.
+    /// People whose bodies could be built: of the search, and held out.
     pub people: [usize; 2],
     /// Handles by which the sample size departs from the base, one for each level; and girths that grow from size to
     /// size, each with lengths that grow with it.
     pub handles: [Vec<&'static str>; 2],
     /// Handles that the pattern has and that cannot move, with the reason: their lengths do not grow.
     pub refused: Vec<String>,
-    /// Sizes at which the steps change: one, or none where they are even.
     pub split: Option<String>,
-    /// Lengths that grow with a girth.
     pub growth: Vec<Grown>,
-    /// Number of rules.
     pub rules: usize,
-    /// Both sets: the pattern's own sizes, and the new ones.
+    /// Pattern's own sizes, then the new ones.
     pub sets: Vec<SizeSet>,
-    /// Levels that have a band.
     pub levels: Vec<LevelShare>,
     /// Level by which the people held out are divided, and fifths of them by their girth there.
     pub parts: (String, Vec<PartShare>),
-    /// Greatest distance between a size as drawn and as the rules make it, mm.
+    /// Greatest distance between a size as drawn and as the rules make it.
     pub apart_mm: f64,
-    /// Result of drapes; `None` where none were asked for.
+    /// `None` where none were asked for.
     pub drapes: Option<DrapedAgain>,
     /// Points of measure of the new sizes.
     pub sheet: Specification,
@@ -213,12 +190,7 @@ pub struct Grading {
     pub files: Vec<(String, Vec<u8>)>,
 }
 
-/// Finds the sizes that fit the most people.
-///
-/// # Errors
-/// [`StudyError::NotFound`] for a garment or size that the study does not have. Others for counts out of range, a
-/// pattern that holds its own seams; when body or pattern fail, a seam comes apart in a size, or the rules do not make
-/// the sizes again. Seams are tried before anybody is drawn.
+/// Finds the sizes that fit the most people. Seams are tried before anybody is drawn.
 pub fn grade(study: &Study, wish: &GradeWish) -> Result<Grading> {
     let asked = Asked::of(study, wish)?;
     let growth = asked.growth()?;
@@ -287,31 +259,24 @@ pub fn grade(study: &Study, wish: &GradeWish) -> Result<Grading> {
     })
 }
 
-/// People, and the levels at which a garment must fit them.
 #[derive(Clone, Copy)]
 struct Crowd<'a> {
     figures: &'a [Figure],
     bands: &'a [Band],
 }
 
-/// A set of sizes, judged on people.
 struct Judged<'a> {
     title: &'static str,
-    /// Patterns of the sizes, in order.
     styles: &'a [Style],
-    /// Names of the sizes, in the same order.
     names: &'a [String],
     tally: &'a Tally,
 }
 
-/// Request for a grading, found in the study.
 struct Asked<'a> {
     entry: &'a GarmentEntry,
-    /// A job of the base size.
     spec: JobSpec,
-    /// Index of the base among the pattern's own sizes.
+    /// Index among the pattern's own sizes.
     base: usize,
-    /// Number of sizes to find.
     count: usize,
     sexes: Vec<Sex>,
 }
@@ -350,7 +315,6 @@ impl<'a> Asked<'a> {
         Ok(Self { entry, spec: spec.ok_or_else(missing)?, base: index, count, sexes })
     }
 
-    /// Growth of the base size.
     fn growth(&self) -> Result<Growth> {
         let spec = &self.spec;
         let without_seams = || AdviceError::GradeWithoutSeams { pattern: spec.pattern.name.clone() };
@@ -363,13 +327,11 @@ impl<'a> Asked<'a> {
         Growth::of(&pieces, &seams.bytes, &seams.name, &handles).origin(Origin::Grade)
     }
 
-    /// Imprint of the files that are written.
     fn imprint(&self) -> Result<Imprint> {
         let unit = self.spec.unit.as_deref().and_then(patterns::unit_of);
         Ok(Imprint::of(patterns::Nest::read(&self.spec.pattern, unit)?.texts()))
     }
 
-    /// Styles of the pattern's own sizes.
     fn own(&self) -> Result<Vec<Style>> {
         let unit = self.spec.unit.as_deref().and_then(patterns::unit_of);
         let style = |size: &spec::file::SizeFile| {
@@ -381,7 +343,7 @@ impl<'a> Asked<'a> {
         self.entry.sizes.iter().map(style).collect()
     }
 
-    /// Names of the new sizes: those of the pattern, where it has as many.
+    /// Names of the pattern's sizes, where it has as many.
     fn names(&self) -> Vec<String> {
         if self.entry.sizes.len() == self.count {
             return self.entry.sizes.iter().map(|size| size.name.clone()).collect();
@@ -416,7 +378,6 @@ fn in_the_middle<'f>(figures: &'f [Figure], level: &str) -> Option<&'f Figure> {
     all.get(all.len() / 2).copied()
 }
 
-/// Amounts of the handles of a size.
 fn turned(amounts: &[(Handle, f64)]) -> Vec<Turn> {
     let turn = |(handle, amount_m): &(Handle, f64)| Turn {
         handle: handle.as_str(),
@@ -425,7 +386,6 @@ fn turned(amounts: &[(Handle, f64)]) -> Vec<Turn> {
     amounts.iter().map(turn).collect()
 }
 
-/// Lengths that grow, with their steps.
 fn grown(knobs: &Knobs, turns: &Turns, run: Run) -> Vec<Grown> {
     let lead = |(number, lead): (usize, &knobs::Lead)| -> Vec<Grown> {
         let girth_m = lead.told[0].1;

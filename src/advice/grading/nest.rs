@@ -14,25 +14,19 @@ use pattern::{Handle, Piece, Style};
 use report::FileNames;
 use store::{InOrigin, Origin, Result};
 
-/// Greatest accepted distance between a size as grown and as the rules make it, m.
+/// Greatest accepted distance between a size as grown and as the rules make it.
 const APART_M: f64 = 0.1e-3;
 
-/// The sizes, written and read again.
 pub struct Nest {
-    /// Each size, as the rules make it.
+    /// Sizes as the rules make them.
     pub styles: Vec<Style>,
-    /// Number of rules.
     pub rules: usize,
-    /// Greatest distance between a size as grown and as the rules make it, m.
+    /// Greatest distance between a size as grown and as the rules make it.
     pub apart_m: f64,
     /// Files by name: patterns, rules and seam file.
     pub files: Vec<(String, Vec<u8>)>,
 }
 
-/// Writes the sizes as rules and each by itself, and reads them again.
-///
-/// # Errors
-/// When a seam comes apart, or the rules do not make the sizes again.
 pub fn drawn(asked: &Asked<'_>, names: &[String], knobs: &Knobs, turns: &Turns, run: Run) -> Result<Nest> {
     let garment = &asked.spec.garment;
     let mut parts = FileNames::default();
@@ -75,7 +69,6 @@ pub fn drawn(asked: &Asked<'_>, names: &[String], knobs: &Knobs, turns: &Turns, 
     Ok(Nest { styles, rules: table.rules.len(), apart_m, files })
 }
 
-/// All sizes, as a reader of the written files makes them.
 fn read_again(written: &[u8], rules: &[u8], name: &str) -> Result<PatternFile> {
     let sample = dxf::read(written, &format!("{name}.dxf"), None).origin(Origin::Grade)?;
     let table = grade::read(rules, &format!("{name}.rul")).origin(Origin::Grade)?;
@@ -114,7 +107,6 @@ mod tests {
     use std::path::Path;
     use wardrobe::catalogue;
 
-    /// Sizes of a study's garment by turns of its parameters, and the handles by which the sample departs.
     fn made(study: &str, garment: &str, run: Run, turns: &Turns) -> Result<(Nest, Vec<&'static str>)> {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies").join(study);
         let study = Study::load(&folder, &catalogue::known(None)?)?;

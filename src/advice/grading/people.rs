@@ -13,13 +13,12 @@ use spec::bodies;
 
 /// Change of the seed for the people held out, so that others are drawn.
 const HELD_OUT: u64 = 0x68_656c_646f_7574;
-/// Spacing of the heights at which girths of the trunk are kept, and reach of these heights beyond waist and hip, m.
+/// Spacing of the heights at which girths of the trunk are kept, and reach of these heights beyond waist and hip.
 const APART_M: f64 = 0.010;
 const BEYOND_M: f64 = 0.100;
 
 /// A person, reduced to the measurements that ease needs.
 pub struct Figure {
-    /// Measurements with which the person's body was built.
     pub measurements: Measurements,
     stand: Stand,
     girths: Girths,
@@ -28,9 +27,7 @@ pub struct Figure {
     trunk: Vec<[f64; 2]>,
 }
 
-/// A level that a style covers.
 pub struct Covered {
-    /// Level of the body, such as `chest`.
     pub level: String,
     /// True if the body is measured at another height than that of its own level.
     pub has_own_height: bool,
@@ -39,7 +36,6 @@ pub struct Covered {
 }
 
 impl Figure {
-    /// Reduces a body to a figure.
     pub fn of(measurements: &Measurements, body: &Body, has_trunk: bool) -> Self {
         let stand = ease::stand(body);
         let (from_m, to_m) = (stand.hip_m.min(stand.waist_m) - BEYOND_M, stand.hip_m.max(stand.waist_m) + BEYOND_M);
@@ -50,7 +46,7 @@ impl Figure {
         Self { measurements: measurements.clone(), stand, girths: body.girths.clone(), trunk }
     }
 
-    /// Ease of a style at each of some levels, m; `None` where the style does not cover the level.
+    /// Eases in m; `None` where the style does not cover the level.
     pub fn eases(&self, style: &Style, levels: &[String]) -> Vec<Option<f64>> {
         let found = ease::lengths(style, &self.stand);
         let ease_at = |level: &String| {
@@ -60,7 +56,7 @@ impl Figure {
         levels.iter().map(ease_at).collect()
     }
 
-    /// Levels that a style covers, from the neck down.
+    /// Levels from the neck down.
     pub fn covered(&self, style: &Style) -> Vec<Covered> {
         let found = ease::lengths(style, &self.stand).into_iter();
         let covered = found.map(|length| Covered {
@@ -71,7 +67,7 @@ impl Figure {
         covered.filter(|known| known.has_own_height || self.girth_m(&known.level).is_some()).collect()
     }
 
-    /// Girth or length of the body at a level, m.
+    /// Girth or length of the body.
     pub fn girth_m(&self, level: &str) -> Option<f64> {
         ease::body_length_m(&self.girths, level)
     }
@@ -99,7 +95,7 @@ pub fn drawn(sexes: &[Sex], counts: [usize; 2], seed: u64) -> [Vec<Measurements>
     })
 }
 
-/// Builds the figures of people, in order. Leaves out people whose bodies cannot be built.
+/// Figures in the order of the people, without those whose bodies cannot be built.
 pub fn figures(people: &[Measurements], has_trunk: bool) -> Vec<Figure> {
     let figure = |person: &Measurements| {
         let body = bodies::build_body(person).ok()?;
@@ -108,12 +104,12 @@ pub fn figures(people: &[Measurements], has_trunk: bool) -> Vec<Figure> {
     of_all(people, figure).into_iter().flatten().collect()
 }
 
-/// Ease of a style on every person at each of some levels, m.
+/// Eases by person and level, m.
 pub fn eases(style: &Style, figures: &[Figure], levels: &[String]) -> Vec<Vec<Option<f64>>> {
     of_all(figures, |figure| figure.eases(style, levels))
 }
 
-/// Maps all items on all cores; results are in the order of the items.
+/// Maps all items on all cores; results are in order.
 pub fn of_all<T: Sync, U: Send>(all: &[T], make: impl Fn(&T) -> U + Sync) -> Vec<U> {
     let threads = thread::available_parallelism().map_or(1, NonZero::get);
     let share = all.len().div_ceil(threads).max(1);

@@ -59,7 +59,7 @@ pub(super) fn svg(figures: &[Figure], bands: &[Band], sets: &[Judged<'_>], garme
 /// Number of levels that are girths of the trunk, the first in their order.
 const GIRTHS: usize = 5;
 
-/// Least and greatest body girth, mm, that a style fits at two levels, for a person of the stature of `somebody`.
+/// Least and greatest body girth that a style fits at two levels, for a person of the stature of `somebody`.
 fn fitted_mm(somebody: &Figure, style: &Style, bands: [&Band; 2]) -> Option<[[f64; 2]; 2]> {
     let levels = bands.map(|band| band.level.clone());
     let eases = somebody.eases(style, &levels);
@@ -71,19 +71,17 @@ fn fitted_mm(somebody: &Figure, style: &Style, bands: [&Band; 2]) -> Option<[[f6
     Some([fitted(0)?, fitted(1)?])
 }
 
-/// Colour of a size; grey for `None`.
+/// Grey for `None`.
 fn colour(size: Option<usize>) -> &'static str {
     size.map_or("#cccccc", |size| COLOURS[size % COLOURS.len()])
 }
 
-/// Draws a person in the colour of a size.
 fn draw_dot(svg: &mut String, panel: &Panel, [x, y]: [f64; 2], size: Option<usize>) {
     let (x, y, colour) = (panel.across(x), panel.up(y), colour(size));
     // Writing to a `String` does not fail, here and below.
     let _ = writeln!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2.6\" fill=\"{colour}\"/>");
 }
 
-/// Draws the box of girths that a size fits.
 fn draw_box(svg: &mut String, panel: &Panel, [across, up]: [[f64; 2]; 2], size: usize) {
     let right = panel.left + PANEL;
     let [from, to] = across.map(|x| panel.across(x).clamp(panel.left, right));
@@ -98,7 +96,6 @@ fn draw_box(svg: &mut String, panel: &Panel, [across, up]: [[f64; 2]; 2], size: 
     );
 }
 
-/// Draws the legend: colours of the sizes, with shares.
 fn draw_legend(svg: &mut String, panel: &Panel, set: &Judged<'_>, people: usize) {
     let tally = set.tally;
     let share = |size: Option<usize>| {

@@ -20,10 +20,7 @@ const LIMITS: [f64; 4] = [1.0, 0.75, 0.5, 0.35];
 /// Greatest number of rounds in which sizes are measured as drawn and sought again.
 const ROUNDS: usize = 4;
 
-/// Seeks sizes. Where one cannot be drawn, since its seams come apart so far from the base, tightens all limits.
-///
-/// # Errors
-/// When sizes cannot be drawn even so.
+/// Tightens all limits where a size cannot be drawn, since its seams come apart so far from the base.
 pub(super) fn sizes(knobs: &Knobs, crowd: Crowd<'_>, even: Run, is_even: bool, seed: u64) -> Result<(Run, Turns)> {
     let effects = knobs.asks(crowd.figures, crowd.bands)?;
     let price = PRICE * crowd.figures.len() as f64;

@@ -3,7 +3,7 @@
 use body::Sex;
 use pattern::Handle;
 
-/// Step of the leading girth to which the shares refer, m.
+/// Step of the leading girth to which the shares refer.
 pub const GIRTH_M: f64 = 40e-3;
 
 /// Part of a garment, whose lengths grow with one girth.
@@ -15,18 +15,15 @@ pub enum Part {
     Lower,
 }
 
-/// Growth of a length with the leading girth of its part.
 pub struct Share {
-    /// Handle that changes the length.
     pub handle: Handle,
-    /// Part of the garment.
     pub part: Part,
     /// Growth for women and for men in 40 mm of girth, mm. Of a girth it is half, as that of its handle.
     of_40_mm: [f64; 2],
 }
 
 impl Share {
-    /// Growth of the length in 40 mm of girth for people of some sexes, m: the mean.
+    /// Mean growth of the length in 40 mm of girth for people of these sexes.
     pub fn of_girth_m(&self, sexes: &[Sex]) -> f64 {
         let of = |sex: &Sex| self.of_40_mm[usize::from(*sex == Sex::Male)];
         1e-3 * sexes.iter().map(of).sum::<f64>() / sexes.len().max(1) as f64

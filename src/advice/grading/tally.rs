@@ -9,31 +9,26 @@ use fit::target;
 use geom::units::mm;
 use pattern::Style;
 
-/// Departure that counts for a level which the base covers and the size does not, m: more than any ease departs.
+/// Departure that counts for a level which the base covers and the size does not: more than any ease departs.
 const UNCOVERED_M: f64 = 1.0;
-/// Number of parts into which the people are divided.
 const PARTS: usize = 5;
 /// Standard errors in half of a 95 % interval.
 const NORMAL_95: f64 = 1.96;
-/// Percentiles of a size chart.
 const PERCENTILES: [f64; 3] = [0.05, 0.5, 0.95];
 /// Girths of the trunk, from the top down; they stand before other levels.
 const ORDER: [&str; 5] = ["chest", "bust", "underbust", "waist", "hip"];
 
-/// Position of a level in lists.
 pub fn order(level: &str) -> usize {
     ORDER.iter().position(|known| *known == level).unwrap_or(ORDER.len())
 }
 
-/// Worst level of a size on a person.
 #[derive(Clone, Copy, Debug)]
 struct Worst {
     level: usize,
-    /// Weighted departure from the level's band, m; 0 where all levels are in their bands.
+    /// Weighted departure from the level's band; 0 where all levels are in their bands.
     weight_m: f64,
 }
 
-/// Fit of every size of a set on every person.
 pub struct Tally {
     /// Worst level, by size and then person.
     worst: Vec<Vec<Worst>>,
@@ -42,7 +37,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Judges sizes on people. Ignores levels that the base does not cover on a person.
+    /// Ignores levels that the base does not cover on a person.
     pub fn of(styles: &[Style], base: &Style, figures: &[Figure], bands: &[Band]) -> Self {
         let levels: Vec<String> = bands.iter().map(|band| band.level.clone()).collect();
         let asked = people::eases(base, figures, &levels);
@@ -76,7 +71,6 @@ impl Tally {
         to_wear(&self.worst, person)
     }
 
-    /// True if some size fits.
     pub fn is_fitted(&self, person: usize) -> bool {
         self.worst[self.wears(person)][person].weight_m == 0.0
     }
@@ -89,7 +83,6 @@ impl Tally {
         percent((0..self.people()).filter(|person| self.is_fitted(*person)).count(), self.people())
     }
 
-    /// Summary of a set of sizes on the people held out. `sought` is its tally on the people of the search.
     pub fn set(&self, set: &'static str, names: &[String], sought: &Self, figures: &[Figure]) -> SizeSet {
         let held_out_percent = self.fitted_percent();
         let share = held_out_percent / 100.0;
@@ -119,7 +112,7 @@ impl Tally {
         percent(self.off.iter().filter(|off| !off[level]).count(), self.people())
     }
 
-    /// Share of the people whom no size fits for whom this level is the worst, %.
+    /// Share of the people whom no size fits for whom this level is the worst.
     fn fails_percent(&self, level: usize) -> f64 {
         let unfitted = || (0..self.people()).filter(|person| !self.is_fitted(*person));
         let fails = unfitted().filter(|person| self.worst[self.wears(*person)][*person].level == level).count();
@@ -146,7 +139,6 @@ fn percent(count: usize, of: usize) -> f64 {
     100.0 * count as f64 / of.max(1) as f64
 }
 
-/// Ranges of the dimensions of the people who wear a size.
 fn ranges(figures: &[Figure], wearers: &[usize]) -> Vec<Range> {
     let range = |dimension: Dimension| {
         let figures = wearers.iter().filter_map(|person| figures.get(*person));
@@ -160,7 +152,6 @@ fn ranges(figures: &[Figure], wearers: &[usize]) -> Vec<Range> {
     DIMENSIONS.into_iter().filter_map(range).collect()
 }
 
-/// Shares of both sets at each level.
 pub fn levels(bands: &[Band], sets: [&Tally; 2]) -> Vec<LevelShare> {
     let level = |(number, band): (usize, &Band)| LevelShare {
         level: band.level.clone(),
@@ -171,7 +162,7 @@ pub fn levels(bands: &[Band], sets: [&Tally; 2]) -> Vec<LevelShare> {
     bands.iter().enumerate().map(level).collect()
 }
 
-/// Shares of both sets in parts of the people, divided by girth at the first level.
+/// Divides the people by girth at the first level.
 pub fn parts(figures: &[Figure], bands: &[Band], sets: [&Tally; 2]) -> (String, Vec<PartShare>) {
     let level = bands.first().map_or_else(String::new, |band| band.level.clone());
     let girth_mm = |person: &usize| figures[*person].girth_m(&level).map_or(0.0, mm);

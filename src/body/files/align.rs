@@ -7,13 +7,11 @@ use geom::{TriMesh, V2, V3, hull};
 use nalgebra::{Rotation2, UnitQuaternion};
 use std::borrow::Cow;
 
-/// Angle between the long axis of a body and an axis of its file below which the body stands along that axis, radians.
-/// Judgement.
+/// Angle between the long axis and an axis of the file below which the body stands along that axis, radians. Judgement.
 const SNAP: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
-/// Least lean of a body that is corrected, radians: from the upright axis of its file, or if there is none. Then the
-/// greatest lean that righting by the soles may leave: a body that leans more does not stand on its soles (raised
-/// heels). Judgement.
+/// Least lean that is corrected, radians: from the upright axis of the file, or if there is none. Then the greatest
+/// lean that righting by the soles may leave: beyond, a body does not stand on its soles (raised heels). Judgement.
 const LEANING: [f64; 2] = [2.5 * std::f64::consts::PI / 180.0, 0.2 * std::f64::consts::PI / 180.0];
 const SOLES: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
@@ -23,8 +21,7 @@ const UNEVEN: f64 = 0.02;
 /// Height of the zone of the soles above the lowest point, as a share of stature. Judgement.
 const SOLE_ZONE: f64 = 0.025;
 
-/// Number of horizontal slabs by which the symmetry is measured, and of directions of their support functions: every
-/// half degree.
+/// Number of slabs that measure the symmetry, and of directions of their support functions: every half degree.
 const SLABS: usize = 24;
 const DIRECTIONS: usize = 720;
 
@@ -35,8 +32,7 @@ const SHIFTED: f64 = 0.004;
 /// Greatest root mean square difference between left and right of a symmetric body, as a share of stature. Judgement.
 const SYMMETRIC: f64 = 0.02;
 
-/// Turns the mesh so that its long axis points up, with the legs below. Returns true if the body stands along an axis
-/// of its file.
+/// Turns the long axis up, with the legs below. Returns true if the body stands along an axis of its file.
 pub(super) fn stand_up(mesh: &mut TriMesh, notes: &mut Vec<String>) -> bool {
     let Some((_, [long, ..])) = principal_axes(mesh, &mesh.triangles) else { return true };
     let leaning = |axis: &V3| long.dot(axis).abs().clamp(0.0, 1.0).acos();
@@ -86,8 +82,7 @@ pub(super) fn straighten(mesh: &mut TriMesh, along_axis: bool, notes: &mut Vec<S
     }
 }
 
-/// Triangles of a mesh without the part of one leg below the end of the other: a leg that is cut off would make the
-/// body lean.
+/// Triangles without the part of one leg below the end of the other: a leg that is cut off makes the body lean.
 fn on_both_sides(mesh: &TriMesh) -> Cow<'_, [[usize; 3]]> {
     let Some((low, high)) = mesh.bounds() else { return Cow::Borrowed(&mesh.triangles) };
     let middle = (low.x + high.x) / 2.0;
@@ -104,7 +99,6 @@ fn on_both_sides(mesh: &TriMesh) -> Cow<'_, [[usize; 3]]> {
 }
 
 /// Slope of the soles from back to front, radians: that of the lower edge of the hull below the middle of the feet.
-/// `None` without a sole.
 fn sole_slope(mesh: &TriMesh) -> Option<f64> {
     let (low, high) = mesh.bounds()?;
     let ceiling = low.z + SOLE_ZONE * (high.z - low.z);
@@ -122,7 +116,6 @@ fn turn_all(mesh: &mut TriMesh, turn: impl Fn(&V3) -> V3) {
     mesh.positions.iter_mut().for_each(|p| *p = turn(p));
 }
 
-/// True if the legs are at the upper end and the trunk at the lower end.
 fn stands_on_head(mesh: &TriMesh) -> bool {
     let Some((low, high)) = mesh.bounds() else { return false };
     let stature = high.z - low.z;
@@ -162,11 +155,9 @@ pub(super) fn face_front(mesh: &mut TriMesh, notes: &mut Vec<String>) {
     }
 }
 
-/// Plane of symmetry of an upright body.
 struct Symmetry {
     /// Direction of the trace of the plane, radians from `x`.
     front: f64,
-    /// Point of the plane.
     point: V2,
     /// Root mean square difference between both sides, in the unit of the mesh.
     difference: f64,
@@ -201,8 +192,7 @@ impl Symmetry {
     }
 }
 
-/// Support function of the vertices of a slab about `centre`: distance of the tangent in every direction. `None` for a
-/// slab with too few vertices.
+/// Distance of the tangent in every direction about `centre`. `None` for a slab with too few vertices.
 fn support(mesh: &TriMesh, floor: f64, height: f64, slab: usize, centre: V2) -> Option<Vec<f64>> {
     let within = |p: &&V3| ((p.z - floor) / height).floor() as usize == slab;
     let points: Vec<V2> = mesh.positions.iter().filter(within).map(|p| p.xy() - centre).collect();
@@ -215,15 +205,12 @@ fn support(mesh: &TriMesh, floor: f64, height: f64, slab: usize, centre: V2) -> 
     (hull.len() >= 3).then(|| (0..DIRECTIONS).map(tangent).collect())
 }
 
-/// Asymmetry of a body about a plane.
 struct Asymmetry {
-    /// Root mean square difference of all slabs from their mirror images.
     difference: f64,
     /// Offset of the plane to the right of its direction.
     offset: f64,
 }
 
-/// Asymmetry of the slabs about the plane in the direction `front`, at the offset with the least difference.
 fn asymmetry(slabs: &[Vec<f64>], front: usize) -> Asymmetry {
     const STEP: usize = 8;
     let turns = (STEP..DIRECTIONS / 2).step_by(STEP);

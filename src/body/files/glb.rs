@@ -8,13 +8,11 @@ use geom::{TriMesh, V3};
 use nalgebra::{Matrix4, Point3, Quaternion, Translation3, UnitQuaternion};
 use serde::Deserialize;
 
-/// First bytes of a GLB file.
 pub(super) const MAGIC: &[u8] = b"glTF";
 /// Greatest depth of a node. A greater one means a cycle.
 const DEEPEST: usize = 64;
 /// Greatest number of visited nodes. A greater one means that nodes are visited again and again.
 const MOST_PLACED: usize = 10_000;
-/// Mode of a primitive of triangles.
 const TRIANGLES: u32 = 4;
 
 #[derive(Deserialize)]
@@ -86,8 +84,7 @@ struct View {
     byte_stride: Option<usize>,
 }
 
-/// Reads the mesh of a file. A vertex occurs once for each chart of a texture, so vertices of equal position are
-/// merged.
+/// Merges vertices of equal position, because a vertex occurs once for each chart of a texture.
 pub(super) fn read(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     let (json, data) = chunks(bytes).ok_or_else(|| refused("its chunks are cut off"))?;
     let document: Document = serde_json::from_slice(json).map_err(|error| refused(&error.to_string()))?;
@@ -134,7 +131,6 @@ fn chunks(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
 }
 
 impl Node {
-    /// Transform of the mesh and children of the node.
     fn place(&self) -> Matrix4<f64> {
         if let Some(matrix) = self.matrix {
             return Matrix4::from_column_slice(&matrix);
@@ -191,7 +187,6 @@ impl Document {
         Ok(())
     }
 
-    /// Items of an accessor, each of a number of bytes. `None` if they are not in the file.
     fn items<'d>(
         &self,
         accessor: &Accessor,

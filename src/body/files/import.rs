@@ -11,9 +11,7 @@ use geom::{TriMesh, V3};
 use std::fmt::Write as _;
 use std::io::Cursor;
 
-/// Unit of the coordinates of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[allow(missing_docs)]
 pub enum LengthUnit {
     #[serde(rename = "mm")]
     Millimetre,
@@ -28,11 +26,9 @@ pub enum LengthUnit {
 }
 
 impl LengthUnit {
-    /// All units. The height of a standing adult is plausible in only one of them.
+    /// The height of a standing adult is plausible in only one of them.
     pub const ALL: [Self; 5] = [Self::Millimetre, Self::Centimetre, Self::Metre, Self::Decimetre, Self::Inch];
 
-    /// Metres in one unit.
-    #[must_use]
     pub fn metres(self) -> f64 {
         match self {
             Self::Millimetre => 1e-3,
@@ -44,7 +40,6 @@ impl LengthUnit {
     }
 
     /// Symbol, such as `mm`.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Millimetre => "mm",
@@ -56,7 +51,6 @@ impl LengthUnit {
     }
 }
 
-/// An imported body in the world frame, with notes on what was inferred.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Imported {
     /// Mesh in metres, z up, on the floor.
@@ -72,7 +66,6 @@ pub fn import(bytes: &[u8], unit: Option<LengthUnit>) -> Result<Imported, BodyEr
     settle(&read(bytes)?, unit)
 }
 
-/// Reads the mesh of a file as it is.
 fn read(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     let announced = announced_faces(bytes);
     if announced > MOST_TRIANGLES {
@@ -100,7 +93,6 @@ fn read(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     Ok(mesh)
 }
 
-/// Number of faces that a file states or shows, found without reading the faces.
 fn announced_faces(bytes: &[u8]) -> usize {
     if bytes.starts_with(b"ply") {
         let head = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
@@ -130,8 +122,7 @@ fn read_obj(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     Ok(merge_equal_vertices(&mesh))
 }
 
-/// Vertices and faces of an OBJ, without what a body does not use: names, comments, textures, normals and colours. Those
-/// may be in any code page.
+/// Vertices and faces of an OBJ, without names, comments, textures and colours, which may be in any code page.
 fn positions_and_faces(bytes: &[u8]) -> String {
     let text = String::from_utf8_lossy(bytes).replace("\\\r\n", " ").replace("\\\n", " ");
     let plain = |line: &str| {
@@ -148,7 +139,6 @@ fn positions_and_faces(bytes: &[u8]) -> String {
     text.lines().filter_map(plain).collect::<Vec<_>>().join("\n")
 }
 
-/// Place of the first line that is not an OBJ statement with the numbers that it needs.
 fn obj_place(bytes: &[u8]) -> String {
     let text = String::from_utf8_lossy(bytes);
     let broken = |line: &str| {
@@ -214,7 +204,6 @@ fn read_ply(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     Ok(merge_equal_vertices(&mesh))
 }
 
-/// Brings a mesh as read into the world frame.
 fn settle(mesh: &TriMesh, unit: Option<LengthUnit>) -> Result<Imported, BodyError> {
     let mut notes = Vec::new();
     if clean::several(mesh) {
@@ -265,13 +254,12 @@ fn is_adult(height_m: f64) -> bool {
     (1.2..2.4).contains(&height_m)
 }
 
-/// Unit in which `height` is that of a standing adult. `None` if it is that in no unit.
+/// Unit in which `height` is that of a standing adult.
 fn guess_unit(height: f64) -> Option<LengthUnit> {
     LengthUnit::ALL.into_iter().find(|unit| (1.2..2.4).contains(&(height * unit.metres())))
 }
 
 /// Writes the mesh as Wavefront OBJ in metres, to a tenth of a micrometre.
-#[must_use]
 pub fn write_obj(mesh: &TriMesh) -> String {
     let mut text = String::with_capacity(mesh.positions.len() * 36 + mesh.triangles.len() * 20);
     text.push_str("# metres; x to the subject's right, y to the front, z up\n");

@@ -2,7 +2,7 @@ use super::*;
 use crate::testing::{ascii_ply, ascii_stl, binary_ply, binary_stl};
 use proptest::prelude::*;
 
-/// A four-sided prism 1.7 m high, in metres, z up.
+/// Four-sided prism 1.7 m high, in metres, z up.
 fn block() -> TriMesh {
     let positions = vec![V3::zeros(), V3::new(0.3, 0.0, 0.0), V3::new(0.0, 0.2, 0.0), V3::new(0.1, 0.1, 1.7)];
     TriMesh { positions, triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]] }
@@ -31,7 +31,6 @@ fn every_format_and_unit_gives_the_same_body() {
     check(write_obj(&scaled(&block(), 1.0 / 0.0254)).as_bytes(), LengthUnit::Inch);
 }
 
-/// The block as a GLB with y up, hung from a node that scales it.
 fn glb() -> Vec<u8> {
     glb_of(&block())
 }

@@ -21,7 +21,7 @@ fn file_error(format: &'static str, place: &str, problem: &str) -> BodyError {
     BodyError::File { format, place: place.to_owned(), problem: problem.to_owned() }
 }
 
-/// Merges vertices of equal position, and drops triangles that have lost a side.
+/// Drops triangles that have lost a side, too.
 fn merge_equal_vertices(mesh: &TriMesh) -> TriMesh {
     let mut first_with: BTreeMap<[u64; 3], usize> = BTreeMap::new();
     let mut merged = TriMesh::default();

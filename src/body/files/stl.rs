@@ -9,14 +9,13 @@ use geom::{TriMesh, V3};
 const HEADER: usize = 84;
 const FACET: usize = 50;
 
-/// True if these bytes are STL.
 pub(super) fn is_stl(bytes: &[u8]) -> bool {
     is_binary(bytes) || bytes.trim_ascii_start().starts_with(b"solid")
 }
 
 /// Number of facets that a binary file states, or that an ASCII file of its length may have.
 pub(super) fn announced_faces(bytes: &[u8]) -> usize {
-    /// Least number of bytes of a facet in an ASCII file.
+    /// Least number of bytes of a facet.
     const ASCII_FACET: usize = 100;
     if is_binary(bytes) { count(bytes) } else { bytes.len() / (4 * ASCII_FACET) }
 }
@@ -27,7 +26,6 @@ fn is_binary(bytes: &[u8]) -> bool {
     bytes.get(HEADER - 1) == Some(&0)
 }
 
-/// Number of facets in the header of a binary file.
 fn count(bytes: &[u8]) -> usize {
     bytes[HEADER - 4..HEADER].iter().rev().fold(0, |count, byte| count << 8 | usize::from(*byte))
 }

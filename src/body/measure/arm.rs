@@ -16,7 +16,6 @@ const SPREAD: f64 = 0.05;
 /// Range of the girths of sections of an arm, as shares of stature. Judgement.
 const ARM_GIRTHS: std::ops::Range<f64> = 0.03..0.36;
 
-/// Greatest number of steps. Arms are shorter.
 const MOST_STEPS: usize = 50;
 
 /// Position of the elbow as a share of the line from the shoulder joint to the finger tips: mean of 200 model bodies,
@@ -28,7 +27,6 @@ const WRIST: [f64; 2] = [0.66, 0.82];
 /// to model bodies, residual 10 mm.
 const WRIST_JOINT: [f64; 2] = [0.317, 0.573];
 
-/// Section of the arm.
 #[derive(Clone, Copy, Debug)]
 struct Station {
     centre: V3,
@@ -42,7 +40,6 @@ struct Station {
 #[derive(Clone, Debug)]
 pub(crate) struct Arm {
     stations: Vec<Station>,
-    /// Tip of the hand.
     pub tip: V3,
     length: f64,
 }
@@ -85,7 +82,6 @@ impl Arm {
         Some(Self { stations, tip, length })
     }
 
-    /// Point and direction of the line at a share of its length.
     pub fn at(&self, share: f64) -> AxisPoint {
         let at = share * self.length;
         let count = self.stations.len();
@@ -121,7 +117,6 @@ impl Arm {
     }
 }
 
-/// Triangles of the mesh that reach beyond `x`.
 fn beyond(mesh: &TriMesh, x: f64) -> TriMesh {
     let reaches = |triangle: &&[usize; 3]| triangle.iter().any(|&i| mesh.positions[i].x > x);
     let triangles: Vec<[usize; 3]> = mesh.triangles.iter().filter(reaches).copied().collect();

@@ -9,14 +9,11 @@ use super::tape;
 use geom::TriMesh;
 use geom::units::mm;
 
-/// Uncertainty of a measurement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Confidence {
-    /// Key of the measurement.
     pub key: &'static str,
     /// Standard deviation, in the unit of the key: millimetres or degrees.
     pub sd: f64,
-    /// Main cause, in words.
     pub reason: &'static str,
 }
 
@@ -26,8 +23,7 @@ const UNDERBUST: f64 = 0.0060;
 const HIP: f64 = 0.0040;
 const KNEE: f64 = 0.0180;
 
-/// Standard deviations / stature: of the distance of nipples from the median plane, of wrist joint and elbow along the
-/// arm, and of the base of the neck.
+/// Standard deviations / stature: of nipples from the median plane, wrist joint and elbow along the arm, neck base.
 const NIPPLES_OUT: f64 = 0.0045;
 const WRIST: f64 = 0.0055;
 const NECK_BASE: f64 = 0.0050;
@@ -38,8 +34,7 @@ const SLOPE: f64 = 1.5;
 /// Standard deviation of the tape on a smooth skin, m: facets of the mesh, and steps of the search.
 const TAPE: f64 = 0.001;
 
-/// Standard deviation of the middle of the thighs, which parts the crotch length into front and back, m. Judgement: that
-/// of the stance.
+/// Standard deviation of the middle of the thighs, which parts the crotch length, m. Judgement: that of the stance.
 const CROTCH: f64 = 0.004;
 
 /// Distance above and below a level over which the change of its girth is measured, m. Judgement.
@@ -56,7 +51,6 @@ const BASE: &str = "the base of the neck is where the skin bends";
 const FLOOR: &str = "front and back are parted above the middle of the thighs, which the stance moves";
 const FLAT: &str = "a flat summit stands out alike over some height";
 
-/// Uncertainty of every key.
 pub(super) fn uncertainties(mesh: &TriMesh, sites: &Sites, marks: &Marks) -> Vec<Confidence> {
     let h = marks.stature;
     let trunk = |level: f64, off: f64| {

@@ -14,15 +14,13 @@ use geom::{TriMesh, V2, V3, hull};
 /// women [Gordon 2014].
 pub(crate) const BLADES: f64 = 0.758;
 
-/// Greatest distance from the median plane at which the depth of the trunk is read, as a share of stature. Farther out
-/// are arms. Judgement.
+/// Greatest distance from the median plane at which the trunk depth is read / stature: farther out are arms. Judgement.
 const CENTRAL: f64 = 0.08;
 
 /// Share of the half width at which front and back of a section meet the sides. Judgement.
 const SIDE: f64 = 0.95;
 
-/// Distances from the median plane, as shares of stature, between which the ridge of the shoulder is straight on narrow
-/// and broad shoulders. Judgement.
+/// Range of distances from the median plane / stature in which the ridge of any shoulder is straight. Judgement.
 const RIDGE: [f64; 2] = [0.056, 0.085];
 
 /// Distance from side neck point to shoulder point along x, as a share of stature: that of a mean body.
@@ -59,7 +57,6 @@ pub(crate) fn read(mesh: &TriMesh, sites: &Sites, girths: &Girths, sex: Sex) -> 
     read
 }
 
-/// Mesh and sites of a reading.
 struct Tape<'a> {
     mesh: &'a TriMesh,
     sites: &'a Sites,
@@ -137,9 +134,8 @@ impl Tape<'_> {
         Some(ring.iter().zip(ring.iter().cycle().skip(1)).map(part).sum::<f64>() / 2.0)
     }
 
-    /// Fall from side neck point to shoulder point, and distance of the shoulder point in front of the middle between front
-    /// and back neck point: means of both sides. The fall is that of the ridge of the shoulder, so that it does not depend
-    /// on where the ridge is thought to end.
+    /// Fall of the ridge from side neck point to shoulder point, independent of where the ridge is thought to end, and
+    /// distance of the shoulder point in front of the middle between front and back neck point. Means of both sides.
     fn shoulders(&self) -> Option<[f64; 2]> {
         let [right, left] = self.sites.shoulder;
         let middle = self.sites.middle;

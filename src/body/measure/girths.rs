@@ -7,7 +7,6 @@ use geom::units::{from_mm, mm};
 use serde::de::Error as _;
 use std::collections::BTreeMap;
 
-/// Dimensions that the tape reads, in the order in which they are written.
 const READ: [Dimension; 16] = {
     use Dimension::*;
     [
@@ -30,7 +29,6 @@ const READ: [Dimension; 16] = {
     ]
 };
 
-/// Dimensions whose height is written, with the keys of the heights.
 const LEVELS: [(Dimension, &str); 9] = [
     (Dimension::NeckGirth, "neck_level_mm"),
     (Dimension::ChestGirth, "chest_level_mm"),
@@ -43,10 +41,8 @@ const LEVELS: [(Dimension, &str); 9] = [
     (Dimension::Inseam, "crotch_level_mm"),
 ];
 
-/// Dimensions of the right leg between knee and foot.
 const LOWER_LEG: [Dimension; 3] = [Dimension::KneeGirth, Dimension::CalfGirth, Dimension::AnkleGirth];
 
-/// Stature, inseam, and the dimensions that are read at a share of the stature.
 const PLACED_BY_STATURE: [Dimension; 6] = [
     Dimension::Stature,
     Dimension::Inseam,
@@ -56,26 +52,23 @@ const PLACED_BY_STATURE: [Dimension; 6] = [
     Dimension::ArmLength,
 ];
 
-/// Key of the volume.
 const VOLUME: &str = "volume_l";
 
-/// Girths and levels of a body, and its volume. Girths of lower arms and lower legs are read where the axes of the
-/// limbs are known.
+/// Girths, levels and volume of a body. Girths of lower arms and lower legs are read where the axes of the limbs are
+/// known.
 ///
-/// Serialised by the keys of `body measure`. The numbers are kept in the units in which they are written, so that a
-/// body that is stored and read again is equal to the last bit.
+/// Serialised by the keys of `body measure`, in the units in which numbers are written, so that a stored body is equal
+/// to the last bit when it is read again.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Girths {
-    /// Values by dimension, mm.
+    /// Values in mm, by dimension.
     values: [Option<f64>; COUNT],
     /// Heights above the floor by dimension, mm.
     levels: [Option<f64>; COUNT],
-    /// Volume, l. NaN for a body without both feet.
     volume_l: f64,
 }
 
 impl Girths {
-    /// Girths of a body with a volume (m3) before anything else has been read.
     pub(super) fn of(volume_m3: f64) -> Self {
         Self { values: [None; COUNT], levels: [None; COUNT], volume_l: volume_m3 * 1e3 }
     }
@@ -85,14 +78,12 @@ impl Girths {
         self.values[dimension as usize] = value.into().map(mm);
     }
 
-    /// Sets the height above the floor at which a dimension is read, m.
     pub(super) fn set_level(&mut self, dimension: Dimension, height: impl Into<Option<f64>>) {
         self.levels[dimension as usize] = height.into().map(mm);
     }
 
-    /// Removes what a body with these feet does not show. If one foot is missing, that is the volume and, on the right
-    /// leg, all below the knee. If both are, the floor is unknown, so heights and all that is read at a share of the
-    /// stature are removed as well.
+    /// Removes what a body with these feet does not show: without one foot the volume and, on the right leg, all below
+    /// the knee, without both also heights and what is read at a share of the stature, as the floor is unknown.
     pub(crate) fn keep_known(&mut self, feet: Feet) {
         if feet == Feet::BOTH {
             return;
@@ -113,33 +104,27 @@ impl Girths {
     }
 
     /// Value of a dimension, m. `None` if it was not read.
-    #[must_use]
     pub fn get(&self, dimension: Dimension) -> Option<f64> {
         self.values[dimension as usize].map(from_mm)
     }
 
-    /// Volume, l. NaN for a body without both feet.
-    #[must_use]
+    /// NaN for a body without both feet.
     pub fn volume_l(&self) -> f64 {
         self.volume_l
     }
 
     /// Value of a key as it is written, mm or l. `None` if it was not read.
-    #[must_use]
     pub fn written(&self, key: &str) -> Option<f64> {
         self.entries().find(|(other, _)| *other == key)?.1
     }
 
-    /// All keys with their values.
     pub(super) fn entries(&self) -> impl Iterator<Item = (&'static str, Option<f64>)> {
         let values = READ.map(|dimension| (dimension.key(), self.values[dimension as usize]));
         let levels = LEVELS.map(|(dimension, key)| (key, self.levels[dimension as usize]));
         values.into_iter().chain([(VOLUME, Some(self.volume_l).filter(|litres| litres.is_finite()))]).chain(levels)
     }
 
-    /// Measurements of a subject with these girths, as a study has them: all that a subject may have, rounded to 0.1
-    /// mm, which is finer than a tape.
-    #[must_use]
+    /// Measurements of a subject with these girths: all that a subject may have, rounded to 0.1 mm, finer than a tape.
     pub fn measurements(&self, sex: Sex) -> Measurements {
         let mut known = Measurements::of(sex, f64::NAN);
         for dimension in READ {

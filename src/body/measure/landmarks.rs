@@ -24,14 +24,12 @@ pub(crate) fn crotch(mesh: &TriMesh, mut below: f64, mut above: f64, middle: f64
     Some(above)
 }
 
-/// Front or back of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Side {
     Front,
     Back,
 }
 
-/// Point of the outline of the trunk in the median plane at height `z`.
 pub(crate) fn median_point(mesh: &impl Sliced, z: f64, middle: f64, side: Side) -> Option<V3> {
     let outline = tape::trunk_outline(mesh, z, middle)?;
     let next = outline.points.iter().cycle().skip(1);
@@ -51,9 +49,8 @@ pub(crate) fn shoulder_top(mesh: &TriMesh, x: f64, ceiling: f64) -> Option<V3> {
     points.max_by(|a, b| a.y.total_cmp(&b.y)).map(|p| plane.lift(p))
 }
 
-/// Armpit of the right arm: the highest point of the gap between trunk and arm.
-///
-/// Found by bisection between a height at which the arm is free and a height at which it is joined to the trunk.
+/// Highest point of the gap between the right arm and the trunk, by bisection between heights at which the arm is free
+/// and at which it is joined to the trunk.
 pub(crate) fn armpit(mesh: &TriMesh, mut free: f64, mut joined: f64, middle: f64) -> Option<V3> {
     let around = Slices::new(mesh, free, joined);
     let gap = |z: f64| {

@@ -14,7 +14,7 @@ use geom::units::mm;
 use geom::{TriMesh, V2, V3, hull};
 use std::collections::BTreeSet;
 
-/// Lengths that `body measure` gives besides [`Girths`], m. `None` for a length that the body does not show.
+/// Lengths of `body measure` besides [`Girths`]. `None` where the body does not show one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Lengths {
     /// Height of the back neck point.
@@ -29,25 +29,19 @@ pub struct Lengths {
     pub calf_level_m: Option<f64>,
     /// Height of the middle of the right knee, estimated from stature and crotch.
     pub knee_level_m: Option<f64>,
-    /// Girth of the right elbow of a straight arm.
+    /// Girth of the straight right arm.
     pub elbow_girth_m: Option<f64>,
 }
 
-/// Girths and lengths as one flat set of keys, written in millimetres and litres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
-    /// Girths and their levels, including those of the limbs.
     pub girths: Girths,
-    /// Lengths on the skin, and heights that are not the level of a girth.
     pub lengths: Lengths,
-    /// Tailor's measurements.
     pub tailor: Vec<Taken>,
-    /// Uncertainty of each value, by key.
     pub confidence: Vec<Confidence>,
 }
 
 impl Measured {
-    /// All keys with their values as they are written.
     pub fn entries(&self) -> impl Iterator<Item = (&'static str, Option<f64>)> {
         let lengths = &self.lengths;
         let lengths = [
@@ -64,7 +58,6 @@ impl Measured {
         self.girths.entries().chain(lengths).chain(tailor)
     }
 
-    /// Removes what a body with these feet does not show.
     fn keep_known(&mut self, feet: Feet) {
         self.girths.keep_known(feet);
         if !feet.right {
@@ -106,7 +99,6 @@ pub fn lengths(mesh: &TriMesh, sex: Option<Sex>, girths: Girths) -> Result<Measu
     Ok(at_sites(mesh, &sites, sex, girths))
 }
 
-/// Measures a scan with these feet.
 pub(crate) fn of_scan(mesh: &TriMesh, sex: Sex, feet: Feet, girths: Girths) -> Result<Measured, BodyError> {
     let (sites, sex) = sites::find_sites(mesh, Some(sex), feet)?;
     let mut measured = at_sites(mesh, &sites, sex, girths);
@@ -133,7 +125,6 @@ fn at_sites(mesh: &TriMesh, sites: &Sites, sex: Sex, mut girths: Girths) -> Meas
     Measured { girths, lengths, tailor, confidence }
 }
 
-/// Adds the girths of the limbs of a mesh to `girths`.
 pub(crate) fn add_limbs(mesh: &TriMesh, sites: &Sites, sex: Sex, girths: &mut Girths) {
     read_limbs(mesh, sites, &Marks::of_mesh(mesh, sites, sex), girths);
 }

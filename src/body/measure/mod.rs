@@ -15,7 +15,6 @@ pub mod tape;
 
 use geom::V3;
 
-/// Point of the axis of a limb, with the direction of the axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct AxisPoint {
     /// Position, m.

@@ -23,8 +23,7 @@ const TURN: f64 = 0.90;
 /// Distance from the median plane at which the height of the trapezius is read / stature. Judgement.
 const TRAPEZIUS: f64 = 0.07;
 
-/// Ranges of shoulder point and back neck point / stature, to which the rules are clamped: somewhat wider than those of
-/// the model bodies.
+/// Ranges of shoulder and back neck point / stature to which rules are clamped: somewhat wider than in model bodies.
 const SHOULDERS: [f64; 2] = [0.085, 0.150];
 const NAPES: [f64; 2] = [0.835, 0.890];
 
@@ -32,18 +31,15 @@ const NAPES: [f64; 2] = [0.835, 0.890];
 const SEEN: [f64; 2] = [0.0028, 0.0034];
 const UNSEEN: [f64; 2] = [0.0100, 0.0070];
 
-/// Landmarks of the upper body with their uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Upper {
-    /// Shoulder points, right and left.
+    /// Points, right and left.
     pub shoulder: [V3; 2],
     pub back_neck: V3,
-    /// Standard deviations of the distance of a shoulder point from the median plane, and of the height of the back
-    /// neck point, m.
+    /// Standard deviations of the distance of a shoulder point from the median plane and of the back neck height, m.
     pub sd: [f64; 2],
 }
 
-/// Mesh, levels and sex by which an upper body is measured.
 pub(super) struct Frame<'a> {
     /// Mesh above the chest, and whole mesh.
     pub upper: &'a TriMesh,
@@ -56,8 +52,7 @@ pub(super) struct Frame<'a> {
     pub sex: Sex,
 }
 
-/// Marks of one side, as shares of stature: turn of the shoulder, armpit, outward slope of the arm, height of the
-/// trapezius.
+/// Marks of one side / stature: turn of the shoulder, armpit, outward slope of the arm, height of the trapezius.
 struct Marks {
     turn: f64,
     armpit: V3,

@@ -24,18 +24,16 @@ pub(crate) struct Sites {
     pub underbust: f64,
     pub chest: f64,
     pub neck: Neck,
-    /// Shoulder points, right and left.
+    /// Points, right and left.
     pub shoulder: [V3; 2],
     pub back_neck: V3,
-    /// Standard deviations of the distance of a shoulder point from the median plane, and of the height of the back
-    /// neck point, m.
+    /// Standard deviations as in `Upper`, m.
     pub upper_sd: [f64; 2],
     /// Middle of the right upper arm. `None` if the arm is not apart from the trunk.
     pub upper_arm: Option<AxisPoint>,
 }
 
 impl Sites {
-    /// Levels of the body.
     pub fn levels(&self) -> Levels {
         Levels {
             chest_m: self.chest,
@@ -58,7 +56,6 @@ pub fn measure(mesh: &TriMesh, sex: Option<Sex>) -> Result<Girths, BodyError> {
     girths_at(mesh, &sites)
 }
 
-/// Reads the girths at some sites.
 pub(crate) fn girths_at(mesh: &TriMesh, sites: &Sites) -> Result<Girths, BodyError> {
     let trunk = |part, z| tape::trunk_girth(mesh, z, sites.middle).ok_or_else(|| missing(part, z));
     let thigh_level = sites.crotch - THIGH_BELOW_CROTCH;
@@ -110,7 +107,7 @@ pub(crate) fn usual_floor(mesh: &TriMesh, [low, high]: [V3; 2]) -> Option<f64> {
     Some(high.z - (high.z - crotch) / (1.0 - USUAL_CROTCH))
 }
 
-/// Finds the sites on a mesh, and estimates the sex if it is not given.
+/// Estimates the sex if it is not given.
 pub(crate) fn find_sites(mesh: &TriMesh, sex: Option<Sex>, feet: Feet) -> Result<(Sites, Sex), BodyError> {
     let (mut low, high) = mesh.bounds().ok_or_else(|| missing("body", 0.0))?;
     if !feet.stand() {
@@ -170,9 +167,9 @@ pub(crate) fn trunk_middle(mesh: &TriMesh, floor: f64, stature: f64) -> V2 {
     V2::new(median(0), median(1))
 }
 
-/// Estimate of the sex by neck, hip and waist girth / stature: linear discriminant for the 6,068 people of the ANSUR II
-/// survey [Gordon 2014], of whom it classifies 97 % correctly. That is optimistic, because their waists at the navel
-/// were converted into ISO waists by a mean factor for each sex. Only the height of the waist depends on the sex.
+/// Linear discriminant by neck, hip and waist girth / stature for the 6,068 people of the ANSUR II survey [Gordon
+/// 2014], of whom it classifies 97 % correctly. That is optimistic, because their waists at the navel were converted
+/// into ISO waists by a mean factor for each sex. Only the height of the waist depends on the sex.
 fn likely_sex([neck, hip, waist]: [f64; 3]) -> Sex {
     if 127.941 * hip - 256.512 * neck - 40.561 * waist > 1.005 { Sex::Female } else { Sex::Male }
 }
@@ -185,9 +182,9 @@ pub(crate) fn hip_level(mesh: &TriMesh, crotch: f64, stature: f64, middle: f64) 
     summit(&heights.filter_map(back).collect::<Vec<_>>())
 }
 
-/// Height of the maximum of a profile: mean height of its summit, weighted by the value above the foot of the summit.
-/// The summit is all values below the greatest by less than twice the roughness of the profile, which is due to facets
-/// and noise. On a flat summit, the position of the greatest value alone would be arbitrary. `None` without values.
+/// Mean height of the summit of a profile, weighted by the value above its foot. The summit is all values below the
+/// greatest by less than twice the roughness, which is due to facets and noise. On a flat summit, the position of the
+/// greatest value alone would be arbitrary. `None` without values.
 fn summit(profile: &[(f64, f64)]) -> Option<f64> {
     let level = levelled(profile.to_vec(), 2);
     let greatest = level.iter().map(|(_, value)| *value).max_by(f64::total_cmp)?;
@@ -202,8 +199,7 @@ fn summit(profile: &[(f64, f64)]) -> Option<f64> {
 /// Least depth of a summit, m, for rounding.
 const LEAST_SUMMIT: f64 = 1e-6;
 
-/// Moving average of a profile over `reach` neighbours on either side. Without it, the noise of a scan would decide
-/// among the heights of a flat profile.
+/// Moving average over `reach` neighbours on either side, without which scan noise would decide on a flat profile.
 fn levelled(profile: Vec<(f64, f64)>, reach: usize) -> Vec<(f64, f64)> {
     let mean = |i: usize| {
         let reach = reach.min(i).min(profile.len() - 1 - i);
@@ -225,10 +221,9 @@ pub(crate) fn usual_chest(stature: f64, crotch: f64) -> f64 {
     NIPPLES[0] * stature + NIPPLES[1] * crotch
 }
 
-/// Level of the nipples, of which a scan keeps no mark: the mean of two estimates with similar errors. One is the
-/// height at which the front stands out most from the chord between ribs and collar bones, which a hanging breast or a
-/// muscle shifts. The other follows from proportions. The level is at most the highest at which the arms are apart from
-/// the trunk.
+/// Level of the nipples, of which a scan keeps no mark: mean of two estimates with similar errors. One is the height at
+/// which the front stands out most from the chord between ribs and collar bones, which a breast or a muscle shifts, the
+/// other follows from proportions. At most the highest level at which the arms are apart from the trunk.
 pub(crate) fn chest_level(mesh: &TriMesh, floor: f64, stature: f64, crotch: f64, middle: f64) -> Option<f64> {
     let (low, high) = (floor + 0.66 * stature, floor + 0.80 * stature);
     let trunk = Slices::new(mesh, low, high);
@@ -266,8 +261,7 @@ pub(crate) fn underbust_level(mesh: &TriMesh, chest: f64, stature: f64, middle: 
     falling[stop].0
 }
 
-/// Middle of the right upper arm and direction of the arm, from sections of the hanging arm. `None` if the arm is not
-/// apart from the trunk.
+/// Middle of the right upper arm and direction of the hanging arm. `None` if it is not apart from the trunk.
 fn upper_arm(mesh: &TriMesh, shoulder: V3, floor: f64, stature: f64, middle: f64) -> Option<AxisPoint> {
     let centre = |share: f64| {
         let z = floor + share * stature;

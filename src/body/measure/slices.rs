@@ -3,9 +3,7 @@
 use geom::TriMesh;
 use geom::section::{Outline, Plane, section, section_of};
 
-/// Mesh that horizontal planes can cut.
 pub(crate) trait Sliced {
-    /// Outlines at height `z`, m.
     fn slice(&self, z: f64) -> Vec<Outline>;
 }
 
@@ -28,7 +26,6 @@ pub(super) struct Slices<'a> {
 }
 
 impl<'a> Slices<'a> {
-    /// Sorts the triangles between the heights `low` and `high` into layers.
     pub fn new(mesh: &'a TriMesh, low: f64, high: f64) -> Self {
         let count = ((high - low) / LAYER).max(0.0) as usize + 1;
         let layers = |triangle: &[usize; 3]| {

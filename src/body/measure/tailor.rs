@@ -12,12 +12,11 @@ use geom::section::{Outline, Plane, section};
 use geom::units::mm;
 use geom::{TriMesh, V2, V3, hull};
 
-/// A measurement with its line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Taken {
     /// Key with its unit: `armscye_depth_mm`, `shoulder_slope_deg`.
     pub key: &'static str,
-    /// Value in millimetres or degrees, as the key says. `None` if the body does not show the measurement.
+    /// `None` if the body does not show the measurement.
     pub written: Option<f64>,
     /// Line on the skin along which the measurement is read, m.
     pub path: Vec<V3>,
@@ -39,7 +38,6 @@ pub(super) struct Marks {
 }
 
 impl Marks {
-    /// Finds landmarks and levels on a bare mesh.
     pub fn of_mesh(mesh: &TriMesh, sites: &Sites, sex: Sex) -> Self {
         let stature = sites.crown - sites.floor;
         let shoulder = sites.shoulder[0];
@@ -62,7 +60,6 @@ impl Marks {
         }
     }
 
-    /// Takes landmarks and levels from a body.
     fn of_body(body: &Body) -> Self {
         let (low, high) = body.mesh.bounds().unwrap_or((V3::zeros(), V3::zeros()));
         let stature = high.z - low.z;
@@ -83,13 +80,10 @@ impl Marks {
     }
 }
 
-/// Tailor's measurements of a body.
-#[must_use]
 pub(crate) fn of_body(body: &Body) -> Vec<Taken> {
     take(&body.mesh, &Marks::of_body(body))
 }
 
-/// Takes every measurement.
 pub(super) fn take(mesh: &TriMesh, marks: &Marks) -> Vec<Taken> {
     let length = |key, path: Option<Vec<V3>>| {
         let path = path.unwrap_or_default();
@@ -154,8 +148,7 @@ fn scye_depth(mesh: &TriMesh, marks: &Marks, level: f64) -> Option<Vec<V3>> {
     taut(mesh, marks.back_neck, median_point(mesh, level, marks.middle, Side::Back)?, -V3::y())
 }
 
-/// Crotch length front or back: from the waist level in the median plane to the fork, above the middle of the thighs. The
-/// heights are those of crotch and waist.
+/// Crotch length front or back: from the waist level in the median plane to the fork, above the middle of the thighs.
 pub(super) fn crotch_length(mesh: &TriMesh, [crotch, waist]: [f64; 2], middle: f64, side: Side) -> Option<Vec<V3>> {
     let out = if side == Side::Front { V3::y() } else { -V3::y() };
     taut(mesh, median_point(mesh, waist, middle, side)?, landmarks::fork(mesh, crotch, middle)?, out)
@@ -210,7 +203,6 @@ fn width(mesh: &TriMesh, marks: &Marks, side: f64) -> Option<Vec<V3>> {
 /// model bodies, residual 30 mm, because the skin alone does not show the knee cap.
 const KNEE: [f64; 2] = [0.299, 0.630];
 
-/// Height of the middle of the knee.
 pub(super) fn knee_level(marks: &Marks) -> f64 {
     marks.floor + (KNEE[0] * marks.stature + KNEE[1] * (marks.crotch - marks.floor)) / 2.0
 }

@@ -3,7 +3,6 @@ use crate::testing::reference_bodies;
 use crate::{Dimension, Measurements, build, from_scan, lengths, write_obj};
 use std::collections::BTreeMap;
 
-/// Tailor's measurements by key.
 fn by_key(taken: &[Taken]) -> BTreeMap<&str, f64> {
     taken.iter().filter_map(|taken| Some((taken.key, taken.written?))).collect()
 }

@@ -12,7 +12,6 @@ pub(crate) fn trunk_outline(mesh: &impl Sliced, z: f64, middle: f64) -> Option<O
     trunk_among(mesh.slice(z), middle)
 }
 
-/// Outline of the trunk among the outlines at a height.
 pub(super) fn trunk_among(outlines: Vec<Outline>, middle: f64) -> Option<Outline> {
     let across = |outline: &Outline| {
         let (low, high) = outline.bounds();
@@ -27,12 +26,10 @@ pub(crate) fn girth(outline: &Outline) -> f64 {
     hull::tape_girth(&outline.points)
 }
 
-/// Tape girth of the trunk at height `z`, m.
 pub(crate) fn trunk_girth(mesh: &impl Sliced, z: f64, middle: f64) -> Option<f64> {
     trunk_outline(mesh, z, middle).map(|outline| girth(&outline))
 }
 
-/// Outlines of limb size at height `z` that lie to the right of `x`.
 pub(crate) fn right_limbs(mesh: &impl Sliced, z: f64, x: f64) -> Vec<Outline> {
     mesh.slice(z).into_iter().filter(|outline| is_right_limb(outline, x)).collect()
 }
@@ -43,8 +40,7 @@ pub(crate) fn leg_girth(mesh: &impl Sliced, z: f64, middle: f64) -> Option<f64> 
     legs.iter().min_by(|a, b| a.bounds().0.x.total_cmp(&b.bounds().0.x)).map(girth)
 }
 
-/// Foremost (`side` 1) or hindmost (-1) coordinate of an outline at the position `x`. `None` if the outline does not
-/// reach `x`.
+/// Foremost (`side` 1) or hindmost (-1) coordinate of an outline at `x`. `None` if the outline does not reach `x`.
 pub(super) fn edge(outline: &Outline, x: f64, side: f64) -> Option<f64> {
     let next = outline.points.iter().cycle().skip(1);
     let crossings = outline.points.iter().zip(next).filter(|(a, b)| (a.x > x) != (b.x > x));
@@ -52,12 +48,10 @@ pub(super) fn edge(outline: &Outline, x: f64, side: f64) -> Option<f64> {
     places.max_by(|a, b| (side * a).total_cmp(&(side * b)))
 }
 
-/// True if an outline has the size of a limb and lies to the right of `x`.
 pub(super) fn is_right_limb(outline: &Outline, x: f64) -> bool {
     outline.bounds().0.x > x && is_limb(outline)
 }
 
-/// True if an outline has at least the size of a limb.
 pub(super) fn is_limb(outline: &Outline) -> bool {
     hull::perimeter(&outline.points) > SMALLEST_PART
 }
@@ -68,7 +62,6 @@ pub(crate) fn girth_round(mesh: &TriMesh, point: V3, normal: V3) -> Option<f64> 
     outline_round(mesh, &Plane::normal_to(point, normal)).map(|outline| girth(&outline))
 }
 
-/// Largest outline round the origin of the plane.
 fn outline_round(mesh: &TriMesh, plane: &Plane) -> Option<Outline> {
     let holds = |outline: &Outline| outline.contains(V2::zeros());
     section(mesh, plane).into_iter().filter(holds).max_by(|a, b| girth(a).total_cmp(&girth(b)))
@@ -90,14 +83,12 @@ pub(super) fn tape_over(mesh: &TriMesh, start: V3, middle: V3, end: V3) -> Optio
     Some(hull::tape_girth(&points) - reach)
 }
 
-/// Narrowest girth of the neck.
+/// Narrowest girth of the neck, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Neck {
-    /// Girth, m.
     pub girth: f64,
-    /// Centre of the tape, m.
     pub centre: V3,
-    /// Height of the tape at the spine, m.
+    /// Height at the spine.
     pub height: f64,
     /// Forward lean of the neck from the vertical, radians.
     pub lean: f64,
@@ -110,8 +101,7 @@ impl Neck {
     }
 }
 
-/// Distance of the spine behind the middle of the neck, as a share of the depth of the neck. The height of a leaning
-/// tape is read there. Judgement.
+/// Distance of the spine, where the height of a leaning tape is read, behind the neck's middle / its depth. Judgement.
 const SPINE: f64 = 0.14;
 
 /// Greatest lean of the neck that is tried, radians, and numbers of heights and leans of the coarse grid. Judgement.
@@ -119,11 +109,9 @@ const GREATEST_LEAN: f64 = 30.0 * std::f64::consts::PI / 180.0;
 const HEIGHTS: usize = 13;
 const LEANS: usize = 7;
 
-/// Number of times that the steps of the search are halved: to an eighth.
 const HALVINGS: usize = 3;
 
-/// Finds the narrowest girth of the neck, at heights between `low` and `high` and leans up to [`GREATEST_LEAN`]. A
-/// pattern search with ever smaller steps refines the best point of a coarse grid. `None` without an outline there.
+/// Finds the narrowest girth between `low` and `high`, up to [`GREATEST_LEAN`], by a coarse grid and a pattern search.
 pub(crate) fn neck(mesh: &TriMesh, low: f64, high: f64, middle: f64) -> Option<Neck> {
     let upper = mesh.part(|p| p.z > low - 0.12 && p.z < high + 0.12);
     let slices = Slices::new(&upper, low, high);
@@ -160,7 +148,6 @@ pub(crate) fn neck(mesh: &TriMesh, low: f64, high: f64, middle: f64) -> Option<N
     Some(Neck { girth: best.girth, centre, height: spine.z, lean: best.lean })
 }
 
-/// Trial of the search.
 #[derive(Clone, Copy)]
 struct Tried {
     centre: V3,
@@ -171,7 +158,6 @@ struct Tried {
 /// Half breadth of a drawn tape, and distance of the tape from the skin, m. Only for pictures.
 const TAPE: [f64; 2] = [0.004, 0.003];
 
-/// Bands that show taut tapes round the trunk at some heights, m.
 pub(crate) fn bands(mesh: &TriMesh, heights: &[f64], middle: f64) -> TriMesh {
     let [half, off] = TAPE;
     let mut bands = TriMesh::default();
@@ -217,7 +203,7 @@ pub(crate) fn depth_range(outline: &Outline) -> (f64, f64) {
     (high.y, low.y)
 }
 
-/// Triangles that reach above the height `z`. Sections above `z` are those of the whole mesh.
+/// Sections above `z` are those of the whole mesh.
 pub(crate) fn above(mesh: &TriMesh, z: f64) -> TriMesh {
     let reaches = |triangle: &&[usize; 3]| triangle.iter().any(|&vertex| mesh.positions[vertex].z > z);
     TriMesh { positions: mesh.positions.clone(), triangles: mesh.triangles.iter().filter(reaches).copied().collect() }

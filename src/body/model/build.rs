@@ -19,10 +19,6 @@ use geom::{TriMesh, V3};
 /// Missing measurements are estimated from the ANSUR II survey [Gordon 2014]. The figure is fitted until the tape reads
 /// every given measurement on the fine mesh. All bodies of a sex have the same mesh topology.
 ///
-/// # Errors
-/// [`BodyError::OutOfRange`] for measurements that no adult has, [`BodyError::Contradiction`] and
-/// [`BodyError::Inconsistent`] for measurements that do not belong to one body.
-///
 /// # Examples
 /// ```
 /// use body::{Measurements, Sex};
@@ -46,7 +42,6 @@ pub(super) fn unformed(error: BodyError) -> BodyError {
     }
 }
 
-/// Finds landmarks, control mesh and joints of a fitted skin.
 pub(super) fn describe(fit: Fit<'_>) -> Result<Body, BodyError> {
     let Fit { figure, mesh, sites, girths } = fit;
     let landmarks = find_landmarks(&mesh, &figure, &sites)?;
@@ -81,7 +76,6 @@ fn find_landmarks(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Land
     })
 }
 
-/// Planes of the rings of the control mesh.
 fn cuts(mesh: &TriMesh, figure: &Figure, sites: &Sites, landmarks: &Landmarks) -> Cuts {
     let (atlas, h) = (figure.atlas, figure.stature());
     let [elbow, wrist, tip] = figure.arm_lengths();
@@ -132,12 +126,10 @@ fn cuts(mesh: &TriMesh, figure: &Figure, sites: &Sites, landmarks: &Landmarks) -
     }
 }
 
-/// Highest vertex.
 fn highest(mesh: &TriMesh) -> V3 {
     mesh.positions.iter().copied().max_by(|a, b| a.z.total_cmp(&b.z)).unwrap_or_else(V3::zeros)
 }
 
-/// Vertex of the right hand that lies farthest along the arm.
 fn farthest_along(mesh: &TriMesh, joint: V3, along: V3, tip: f64) -> V3 {
     let near_axis = |p: &&V3| {
         let t = (*p - joint).dot(&along);

@@ -55,14 +55,12 @@ fn the_study_subjects_measure_as_asked() {
     }
 }
 
-/// Next pseudo-random number, uniform from 0 to 1.
 fn share(state: &mut u64) -> f64 {
     *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
     (*state >> 33) as f64 / (1_u64 << 31) as f64
 }
 
-/// A random person from the whole range of adults: stature, mass index, and sometimes further measurements. Each lies
-/// up to two standard deviations from the expectation of the survey.
+/// Random adult: stature, mass index, sometimes more, each up to two standard deviations from the survey's expectation.
 fn anybody(state: &mut u64) -> Measurements {
     let mut share = || share(state);
     let sex = if share() < 0.5 { Sex::Male } else { Sex::Female };
@@ -80,8 +78,7 @@ fn anybody(state: &mut u64) -> Measurements {
     known
 }
 
-/// A person whom hardly anybody resembles but whom the builder does not refuse at once: one or two girths lie far from
-/// those of people of the same stature, such as a large waist over small hips.
+/// Person who is not refused at once but whom hardly anybody resembles, such as one of large waist over small hips.
 fn an_odd_body(state: &mut u64) -> Measurements {
     const GIRTHS: [Dimension; 6] = [
         Dimension::ChestGirth,
@@ -118,7 +115,6 @@ fn anybody_can_be_built() {
     assert!(wrong.is_empty(), "{} faults\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// Odd people are built as soundly as others, or refused with the measurement that cannot be reached.
 #[test]
 fn odd_people_are_whole_or_refused() {
     let mut state = 2_u64;
@@ -139,7 +135,6 @@ fn odd_people_are_whole_or_refused() {
 
 const ODD: usize = 40;
 
-/// Complaints of a check about people, each with its person, found on as many threads as there are processors.
 fn of_all(people: &[Measurements], check: impl Fn(&Measurements) -> Vec<String> + Sync) -> Vec<String> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let complaints = |(number, asked): (usize, &Measurements)| {
@@ -153,7 +148,6 @@ fn of_all(people: &[Measurements], check: impl Fn(&Measurements) -> Vec<String> 
     })
 }
 
-/// Faults of a body.
 fn faults(asked: &Measurements, body: &Body) -> Vec<String> {
     let mesh = &body.mesh;
     let mut faults = Vec::new();
@@ -207,7 +201,6 @@ fn check_meshes(body: &Body) {
     assert!(elbow.x > body.skeleton.at(Joint::ShoulderRight).x && elbow.z < body.skeleton.at(Joint::ShoulderRight).z);
 }
 
-/// Distance of a point from the outlines of the horizontal section through it, metres.
 fn off_skin(mesh: &TriMesh, point: V3) -> f64 {
     let outlines = geom::section::section(mesh, &Plane::horizontal(point.z));
     let sides = outlines.iter().flat_map(|outline| outline.points.iter().zip(outline.points.iter().cycle().skip(1)));

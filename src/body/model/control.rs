@@ -8,7 +8,6 @@ use geom::{TriMesh, V3};
 /// of the arms vertex 4 is below and vertex 10 in front.
 pub const RING: usize = 24;
 
-/// Number of vertices of each row of the yoke, front or back.
 pub(super) const YOKE: usize = 5;
 
 /// Number of rows of the yoke between armpit and neck base. With these, the armhole has as many vertices as a ring.
@@ -19,7 +18,6 @@ pub(super) const YOKE_START: [usize; 2] = [4, 16];
 
 /// The 14 regions of the body [T, figure 3-10].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
-#[allow(missing_docs)]
 pub enum Region {
     Head,
     Neck,
@@ -39,7 +37,6 @@ pub enum Region {
 
 /// Critical girths in the order of their rings: legs, trunk, arms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
-#[allow(missing_docs)]
 pub enum Layer {
     FootRight,
     AnkleRight,
@@ -76,7 +73,6 @@ pub enum Layer {
 }
 
 impl Layer {
-    /// Every layer in vertex order.
     pub const ALL: [Self; 32] = {
         use Layer::*;
         [
@@ -124,39 +120,31 @@ pub struct ControlMesh {
     pub positions: Vec<V3>,
     /// Vertex indices of each face, counter-clockwise seen from outside: four, or three at ends and crotch.
     pub faces: Vec<Vec<usize>>,
-    /// Region of each face.
     pub regions: Vec<Region>,
 }
 
 impl ControlMesh {
-    /// Triangulates the faces.
-    #[must_use]
     pub fn triangulated(&self) -> TriMesh {
         let fans = self.faces.iter().flat_map(|face| (2..face.len()).map(|k| [face[0], face[k - 1], face[k]]));
         TriMesh { positions: self.positions.clone(), triangles: fans.collect() }
     }
 
-    /// Vertex indices of the ring of a girth, in order.
-    #[must_use]
     pub fn ring(&self, layer: Layer) -> std::ops::Range<usize> {
         let start = layer as usize * RING;
         start..start + RING
     }
 
     /// Index of vertex `i`, modulo [`RING`], of the ring of a girth.
-    #[must_use]
     pub fn ring_vertex(&self, layer: Layer, i: usize) -> usize {
         layer as usize * RING + i % RING
     }
 
     /// Mean of the vertices of a ring [T 3.1], m.
-    #[must_use]
     pub fn ring_centre(&self, layer: Layer) -> V3 {
         self.positions[self.ring(layer)].iter().sum::<V3>() / RING as f64
     }
 
-    /// Feature points: name and vertex index.
-    #[must_use]
+    /// Names and vertex indices.
     pub fn feature_points(&self) -> Vec<(&'static str, usize)> {
         use Layer::*;
         let median = [
@@ -183,7 +171,6 @@ impl ControlMesh {
         points
     }
 
-    /// Moves the vertices that stand for landmarks onto the landmarks.
     pub(crate) fn snap(&mut self, landmarks: &Landmarks) {
         use Layer::*;
         let exact = [
@@ -205,7 +192,6 @@ impl ControlMesh {
     }
 
     /// Feature lines along the body: name, and vertex indices from above. Girths are lines too, given by the rings.
-    #[must_use]
     pub fn feature_lines(&self) -> Vec<(&'static str, Vec<usize>)> {
         use Layer::*;
         let trunk = [NeckBase, Axilla, Chest, UnderBust, Waist, Abdomen, Hip];
@@ -227,7 +213,6 @@ impl ControlMesh {
     }
 
     /// Joints [T 3.1]: centres of the rings between regions, and of the last rings of head, hands and feet.
-    #[must_use]
     pub fn skeleton(&self) -> Skeleton {
         use Layer::*;
         let rings = [

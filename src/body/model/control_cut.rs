@@ -21,11 +21,9 @@ pub(crate) struct Cuts {
     /// and the second upward.
     pub arm: [Plane; 5],
     pub crown: V3,
-    /// Tip of the right hand.
     pub hand: V3,
 }
 
-/// Cuts the rings and joins them.
 pub(crate) fn control_mesh(mesh: &TriMesh, cuts: &Cuts) -> Result<ControlMesh, BodyError> {
     let mut positions = Vec::with_capacity(Layer::ALL.len() * RING + 64);
     let mirror = |points: &[V3], turn: &dyn Fn(usize) -> usize| -> Vec<V3> {
@@ -60,7 +58,7 @@ pub(crate) fn control_mesh(mesh: &TriMesh, cuts: &Cuts) -> Result<ControlMesh, B
     Ok(control)
 }
 
-/// Ring of the part round the origin of `plane`. Vertex 0 lies at the angle `start` in the plane.
+/// Vertex 0 lies at the angle `start` in the plane.
 fn ring(mesh: &TriMesh, plane: &Plane, start: f64, part: &'static str) -> Result<Vec<V3>, BodyError> {
     let outlines = section(mesh, plane);
     // The origin may lie in an open mouth, so the hull of the outline counts, as it does for a tape.
@@ -71,8 +69,7 @@ fn ring(mesh: &TriMesh, plane: &Plane, start: f64, part: &'static str) -> Result
     Ok(spokes(outline, start).into_iter().map(|p| plane.lift(p)).collect())
 }
 
-/// Horizontal plane at height `z` with its origin in the middle of the outline of trunk or head. A head may lie wholly
-/// in front of the axis of the body.
+/// Horizontal plane with its origin in the middle of the outline: a head may lie wholly in front of the body's axis.
 fn trunk_plane(mesh: &TriMesh, z: f64) -> Plane {
     let middle = tape::trunk_outline(mesh, z, 0.0).map_or(0.0, |outline| {
         let (front, back) = tape::depth_range(&outline);
@@ -81,7 +78,6 @@ fn trunk_plane(mesh: &TriMesh, z: f64) -> Plane {
     Plane { origin: V3::new(0.0, middle, z), ..Plane::horizontal(z) }
 }
 
-/// Ring of the right leg at height `z`, round the middle of its outline.
 fn leg_ring(mesh: &TriMesh, z: f64) -> Result<Vec<V3>, BodyError> {
     let legs = tape::right_limbs(mesh, z, 0.0);
     let leg = legs.iter().min_by(|a, b| a.bounds().0.x.total_cmp(&b.bounds().0.x));
@@ -106,7 +102,6 @@ fn spokes(outline: &Outline, start: f64) -> Vec<V2> {
     (0..RING).map(hit).collect()
 }
 
-/// Adds the rows of the yoke: front and back, between armpit and neck base.
 fn add_yoke(mesh: &TriMesh, positions: &mut Vec<V3>) {
     for start in YOKE_START {
         for row in 1..=YOKE_ROWS {
@@ -132,7 +127,6 @@ fn on_skin(mesh: &TriMesh, point: V3, side: f64) -> V3 {
     places.max_by(f64::total_cmp).map_or(point, |along| plane.lift(V2::new(along, 0.0)))
 }
 
-/// Adds all faces.
 fn join_rings(control: &mut ControlMesh) {
     use Layer as L;
     use Region as R;
@@ -181,7 +175,6 @@ fn add(control: &mut ControlMesh, face: Vec<usize>, region: Region) {
     control.regions.push(region);
 }
 
-/// Joins the thighs to the hip on the outside, and to each other across the crotch.
 fn join_legs(control: &mut ControlMesh) {
     use Layer::{Hip, ThighLeft, ThighRight};
     let right = |i: usize| ThighRight as usize * RING + i % RING;
@@ -199,7 +192,6 @@ fn join_legs(control: &mut ControlMesh) {
     add(control, vec![hip(18), left(18), right(18)], Region::Pelvis);
 }
 
-/// Joins the yoke between armpit and neck base, and the tops of the shoulders round the armholes.
 fn join_shoulders(control: &mut ControlMesh) {
     for (side, start) in YOKE_START.into_iter().enumerate() {
         let row = |row: usize, place: usize| match row {
@@ -239,7 +231,6 @@ fn armhole(right: bool) -> Vec<usize> {
     axilla.chain(up).chain(neck).chain(down).collect()
 }
 
-/// Adds the fans that close soles, crown and hands.
 fn close_ends(control: &mut ControlMesh) {
     let ends = [
         (Layer::FootRight, Region::ShankRight, false),

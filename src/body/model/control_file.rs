@@ -7,19 +7,15 @@ use std::fmt::Write as _;
 /// Content of the JSON file. Lengths are in metres, vertices count from zero.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ControlFile {
-    /// Vertices, faces and the region of each face.
     pub mesh: ControlMesh,
-    /// The 17 joints.
     pub skeleton: Skeleton,
-    /// Vertex of each feature point.
     pub feature_points: BTreeMap<String, usize>,
-    /// Vertices of each feature line, from above.
+    /// Vertices from above.
     pub feature_lines: BTreeMap<String, Vec<usize>>,
     /// Each girth with the first vertex of its ring, which the others follow.
     pub girths: Vec<(Layer, usize)>,
 }
 
-/// Writes the control mesh of a body as JSON.
 pub fn write_control(body: &Body) -> Result<String, serde_json::Error> {
     let control = &body.control;
     let named = |(name, vertex): (&str, usize)| (name.to_owned(), vertex);
@@ -32,10 +28,6 @@ pub fn write_control(body: &Body) -> Result<String, serde_json::Error> {
     })
 }
 
-/// Reads what [`write_control`] wrote.
-///
-/// # Errors
-/// [`serde_json::Error`] for malformed JSON, and for a face that names a missing vertex.
 pub fn read_control(text: &str) -> Result<ControlFile, serde_json::Error> {
     let file: ControlFile = serde_json::from_str(text)?;
     let count = file.mesh.positions.len();
@@ -50,7 +42,6 @@ pub fn read_control(text: &str) -> Result<ControlFile, serde_json::Error> {
 
 impl ControlMesh {
     /// Writes the mesh as Wavefront OBJ in metres, with faces grouped by region.
-    #[must_use]
     pub fn write_obj(&self) -> String {
         let mut text = "# control mesh, metres; x to the subject's right, y to the front, z up\n".to_owned();
         for p in &self.positions {

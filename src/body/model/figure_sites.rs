@@ -7,8 +7,8 @@ use crate::shape::figure::Figure;
 use crate::{BodyError, Dimension};
 use geom::{TriMesh, V3};
 
-/// Finds the tape sites on the skin of a figure. Chest, hip and neck are found as on any mesh, so that the mesh
-/// measures what was fitted. Shoulder and waist are known from the figure.
+/// Chest, hip and neck are found as on any mesh, so that the mesh measures what was fitted. Shoulder and waist are
+/// known from the figure.
 pub(super) fn find(mesh: &TriMesh, figure: &Figure) -> Result<Sites, BodyError> {
     let (atlas, h) = (figure.atlas, figure.stature());
     let crotch = crotch(mesh, figure)?;
@@ -39,7 +39,7 @@ pub(super) fn find(mesh: &TriMesh, figure: &Figure) -> Result<Sites, BodyError> 
 /// farther away, that section would hardly change the girth.
 const UNDERBUST_OFF: f64 = 0.012;
 
-/// Under-bust level. If its girth is given, the level stays near the section that is fitted to the girth.
+/// If its girth is given, the level stays near the section that is fitted to the girth.
 fn underbust(trunk: &TriMesh, chest: f64, figure: &Figure) -> f64 {
     let found = sites::underbust_level(trunk, chest, figure.stature(), 0.0);
     if !figure.profile.is_given(Dimension::UnderbustGirth) {
@@ -53,7 +53,6 @@ fn missing(part: &'static str, height: f64) -> BodyError {
     BodyError::MissingPart { part, height_m: height }
 }
 
-/// Height of the crotch on the mesh, near the crotch of the figure.
 fn crotch(mesh: &TriMesh, figure: &Figure) -> Result<f64, BodyError> {
     let (meant, h) = (figure.crotch(), figure.stature());
     let (low, high) = (meant - 0.06 * h, meant + 0.06 * h);

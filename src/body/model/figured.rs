@@ -30,9 +30,6 @@ const MOST: f64 = 0.07;
 /// All given measurements are kept. Each trait differs by its amount from that of the body without figures, and those that
 /// are not named do not differ.
 ///
-/// # Errors
-/// As [`build`] and [`Figures::check`], and [`BodyError::Figure`] for a figure that the body cannot take.
-///
 /// # Examples
 /// ```
 /// use body::{Figures, Measurements, Sex};
@@ -62,9 +59,8 @@ fn is_dimension(of: Trait) -> bool {
     DIMENSIONS.iter().any(|(other, ..)| *other == of)
 }
 
-/// Fits a skin whose traits differ from those of the skin without bends by the amounts `asked`, m.
-///
-/// The dose of a trait changes by the error of its reading, until all traits are met, those of amount 0 too.
+/// Fits a skin whose traits differ from those of the skin without bends by the amounts `asked`, m: the dose of a trait
+/// changes by the error of its reading until all traits are met, those of amount 0 too.
 fn bent(profile: &Profile, asked: ByTrait<f64>) -> Result<Fit<'_>, BodyError> {
     let plain = fit::fit(profile, [0.0; TRAITS])?;
     if asked.iter().all(|amount| *amount == 0.0) {
@@ -109,7 +105,6 @@ fn bent(profile: &Profile, asked: ByTrait<f64>) -> Result<Fit<'_>, BodyError> {
     unmet.map_or(Ok(fit), |i| Err(refusal(i, &asked, &error)))
 }
 
-/// Error of a trait that is not met. Where it is one that was to stay, the greatest figure is told.
 fn refusal(unmet: usize, asked: &ByTrait<f64>, error: &ByTrait<f64>) -> BodyError {
     let greatest = (0..TRAITS).max_by(|&a, &b| asked[a].abs().total_cmp(&asked[b].abs())).unwrap_or(unmet);
     let told = if asked[unmet] == 0.0 { greatest } else { unmet };
@@ -132,9 +127,8 @@ const GAINS: ByTrait<f64> = [1.0, 1.2, 1.0, 2.2, 2.5, 1.0, 1.0, 0.0, 0.0, 0.0, 1
 /// Trait of a body beside that of its standard body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FigureFound {
-    /// Trait.
     pub of: Trait,
-    /// Amount, mm, above 0 for the longer or fuller one.
+    /// Amount above 0 for the longer or fuller one.
     pub amount_mm: f64,
     /// Standard deviation of the amount, mm: that of the points by which the tape is laid; of a skin other than that of the
     /// built bodies also that of the standard body, whose shape is less than sure.
@@ -143,13 +137,10 @@ pub struct FigureFound {
 
 impl FigureFound {
     /// True if the amount is more than two standard deviations.
-    #[must_use]
     pub fn is_clear(&self) -> bool {
         self.amount_mm.abs() > 2.0 * self.sd_mm
     }
 
-    /// Name of the figure: `flat_seat`.
-    #[must_use]
     pub fn name(&self) -> &'static str {
         self.of.name(self.amount_mm)
     }
@@ -178,15 +169,10 @@ const MAIN: [Dimension; 5] =
 /// The standard body is built from stature and the girths of chest, waist, hip and neck, and for lengths also from the
 /// height of the crotch and the girths of upper arm and thigh. All are read on both bodies by the same rules.
 /// Traits that a body does not show are left out.
-///
-/// # Errors
-/// [`BodyError::MissingPart`] for a mesh that shows no standing person, and the errors of [`build`] where no standard body
-/// has these measurements.
 pub fn figures(body: &Body) -> Result<Vec<FigureFound>, BodyError> {
     of_mesh(&body.mesh, body.sex)
 }
 
-/// Finds the traits of an upright mesh.
 pub(crate) fn of_mesh(mesh: &TriMesh, sex: Sex) -> Result<Vec<FigureFound>, BodyError> {
     let (found, girths) = seen(mesh, sex)?;
     let main = known(&girths, sex, &MAIN);
@@ -208,7 +194,6 @@ pub(crate) fn of_mesh(mesh: &TriMesh, sex: Sex) -> Result<Vec<FigureFound>, Body
     Ok(Trait::ALL.into_iter().filter_map(told).collect())
 }
 
-/// Readings of the traits on a mesh, and its girths.
 fn seen(mesh: &TriMesh, sex: Sex) -> Result<(ByTrait<Option<f64>>, Girths), BodyError> {
     let (sites, _) = sites::find_sites(mesh, Some(sex), Feet::BOTH)?;
     let girths = sites::girths_at(mesh, &sites)?;

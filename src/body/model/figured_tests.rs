@@ -17,7 +17,6 @@ fn amounts(found: &[FigureFound]) -> ByTrait<f64> {
     amounts
 }
 
-/// Complaints about a figure of a person.
 fn faults(sex: Sex, of: Trait, sign: f64, degree: &str) -> Vec<String> {
     let text = format!("{}={degree}", of.name(sign));
     let figures = Figures::read([text.as_str()]).expect("a figure");
@@ -48,7 +47,6 @@ fn faults(sex: Sex, of: Trait, sign: f64, degree: &str) -> Vec<String> {
     faults
 }
 
-/// Every named figure of a sex at three degrees, on as many threads as there are processors.
 fn check_all(sex: Sex) {
     let all: Vec<(Trait, f64, &str)> = Trait::ALL
         .into_iter()

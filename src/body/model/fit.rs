@@ -14,13 +14,11 @@ use crate::{BodyError, Sex};
 use geom::TriMesh;
 use std::sync::LazyLock;
 
-/// Greatest number of rounds, and of corrections in each. The levels of the tape stay fixed in a round and are found
-/// again after it. Judgement.
+/// Greatest number of rounds, and of corrections in each. Levels of the tape are fixed in a round. Judgement.
 const ROUNDS: usize = 6;
 const CORRECTIONS: usize = 6;
 
-/// Error below which the corrections of a round end, and error with new levels below which the fit ends, m: both below
-/// the accepted deviations.
+/// Error that ends the corrections of a round, and error with new levels that ends the fit, m: below those accepted.
 const CORRECTED: f64 = 3e-4;
 const FITTED: f64 = 8e-4;
 
@@ -29,7 +27,6 @@ const FITTED: f64 = 8e-4;
 const GIRTH_TOLERANCE: f64 = 2e-3;
 const LENGTH_TOLERANCE: f64 = 5e-3;
 
-/// Skin with its sites and girths.
 #[derive(Clone)]
 pub(super) struct Fit<'a> {
     pub figure: Figure<'a>,
@@ -38,8 +35,7 @@ pub(super) struct Fit<'a> {
     pub girths: Girths,
 }
 
-/// Makes the skin of a profile and fits it to the requested measurements. `doses` are the strengths of the bends by which
-/// the body departs from the standard body.
+/// Takes as `doses` the strengths of the bends by which the body departs from the standard body.
 pub(super) fn fit(profile: &Profile, doses: ByTrait<f64>) -> Result<Fit<'_>, BodyError> {
     static MALE: LazyLock<Factors> = LazyLock::new(|| start(Sex::Male));
     static FEMALE: LazyLock<Factors> = LazyLock::new(|| start(Sex::Female));
@@ -50,8 +46,7 @@ pub(super) fn fit(profile: &Profile, doses: ByTrait<f64>) -> Result<Fit<'_>, Bod
     fit_from(profile, **factors, doses)
 }
 
-/// Factors for which the person of the template measures as requested. They are a good start for others, because the
-/// difference between skin and figure varies little.
+/// Factors for the template's person: a good start for others, as the difference of skin and figure varies little.
 fn start(sex: Sex) -> Factors {
     let person = Template::person(sex);
     fit_from(&person, [1.0; COUNT], [0.0; TRAITS]).map_or([1.0; COUNT], |fit| fit.figure.factors)
@@ -90,7 +85,6 @@ fn fit_from(profile: &Profile, factors: Factors, doses: ByTrait<f64>) -> Result<
 }
 
 impl Fit<'_> {
-    /// Requested measurement with the greatest error. `None` without requests.
     fn worst(&self, profile: &Profile) -> Option<Fitted> {
         let asked = errors(profile, &self.girths).into_iter().filter(|error| error.is_asked(profile));
         asked.max_by(|a, b| a.off().abs().total_cmp(&b.off().abs()))
@@ -105,7 +99,6 @@ impl Fit<'_> {
         self.hold(self.sites.clone())
     }
 
-    /// Reads the girths at fixed levels.
     fn hold(&mut self, levels: Sites) -> Result<(), BodyError> {
         self.sites = figure_sites::hold(&self.mesh, &self.figure, &levels)?;
         self.girths = read(&self.mesh, &self.figure, &self.sites)?;
@@ -113,7 +106,6 @@ impl Fit<'_> {
     }
 }
 
-/// Sites whose levels are the means of those of two sites.
 fn half_way(a: &Sites, b: Sites) -> Sites {
     let middle = |a: f64, b: f64| (a + b) / 2.0;
     Sites {
@@ -139,7 +131,6 @@ const MAIN: [Dimension; 5] = [
     Dimension::AcrossShoulder,
 ];
 
-/// Girths that the tape reads, with those of the limbs.
 fn read(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Girths, BodyError> {
     let mut girths = sites::girths_at(mesh, sites)?;
     LimbSites::of(figure, sites).read(mesh, &mut girths);
@@ -205,7 +196,7 @@ const CORRECTED_BY: [Dimension; 15] = {
     ]
 };
 
-/// Requested and read value of all corrected dimensions, apart from an under-bust girth that is not given.
+/// Requested and read value of all corrected dimensions, but for an under-bust girth that is not given.
 fn errors(profile: &Profile, read: &Girths) -> Vec<Fitted> {
     let counts = |dimension: &Dimension| *dimension != Dimension::UnderbustGirth || profile.is_given(*dimension);
     let fitted = |dimension| Some(Fitted { dimension, asked: profile.at(dimension), read: read.get(dimension)? });

@@ -8,8 +8,7 @@ use crate::{Dimension, Girths};
 use geom::section::{Plane, section};
 use geom::{TriMesh, V2, V3};
 
-/// Half range of heights in which the greatest calf girth and the least ankle girth are sought, as a share of stature.
-/// Judgement.
+/// Half range of heights in which the greatest calf girth and the least ankle girth are sought / stature. Judgement.
 const CALF_REACH: f64 = 0.03;
 const ANKLE_REACH: f64 = 0.012;
 
@@ -31,7 +30,6 @@ pub(super) struct LimbSites {
 }
 
 impl LimbSites {
-    /// Sites on a figure.
     pub fn of(figure: &Figure, sites: &Sites) -> Self {
         let [elbow, wrist, _] = figure.arm_lengths();
         let axes = figure.arm_axes();
@@ -43,7 +41,6 @@ impl LimbSites {
         Self { stature: figure.stature(), knee, calf, shoulder: sites.shoulder[0], forearm, elbow, wrist, axes }
     }
 
-    /// Reads the girths of the limbs on a mesh.
     pub fn read(&self, mesh: &TriMesh, girths: &mut Girths) {
         let h = self.stature;
         let shank = mesh.part(|p| p.z < self.knee + 0.03 * h && p.x > 0.0);

@@ -15,8 +15,7 @@ use geom::contour::Grid;
 use geom::{TriMesh, V2, V3, smooth_step};
 use std::sync::LazyLock;
 
-/// Stature (m) and body mass index (kg/m2) of the figure of the template: in the middle of the adults to whom the
-/// template is carried.
+/// Stature (m) and body mass index (kg/m2) of the template's figure: in the middle of the adults it is carried to.
 const FIGURE: [f64; 2] = [1.70, 24.0];
 
 /// Grid spacing / stature: of the body, and of the thinner arms (along x) and feet (along z). Judgement.
@@ -36,23 +35,19 @@ const BENT: [usize; 2] = [0, 3];
 const EVENING_PASSES: usize = 30;
 const EVENING_STEP: f64 = 0.6;
 
-/// Distance from the floor below which vertices belong to the sole, and from the median plane below which they lie on
-/// that plane, m: both far below the grid spacing.
+/// Distances from floor and median plane below which vertices belong to the sole or that plane, m: below grid spacing.
 const SOLE: f64 = 1.5e-3;
 const MEDIAN: f64 = 1e-3;
 
 /// Greatest difference in height between a vertex and its mirror image, m: rounding, amplified by the fairing.
 const PAIRED: f64 = 5e-3;
 
-/// A vertex of the right half, or its mirror image.
 #[derive(Clone, Copy, Debug)]
 struct Image {
-    /// Index among the vertices of the right half and the median plane.
     vertex: usize,
     is_mirrored: bool,
 }
 
-/// Coordinates of a vertex in one part.
 #[derive(Clone, Debug)]
 struct Tie {
     /// Index of the part, and true for its mirror image on the left.
@@ -70,7 +65,6 @@ struct Tie {
     past: f64,
 }
 
-/// Vertex of the right half or the median plane.
 #[derive(Clone, Debug)]
 struct Vertex {
     ties: Vec<Tie>,
@@ -80,24 +74,21 @@ struct Vertex {
     home: V3,
     /// Weight of the smoothing of the displacement: 1 where trunk and limb meet, 0 far from there.
     evened: f64,
-    /// Adjacent vertices.
     around: Vec<Image>,
 }
 
-/// The skin of a sex.
 #[derive(Clone, Debug)]
 pub(super) struct Template {
     stature: f64,
     parts: [Part; 5],
     rings: [Vec<Ring>; 5],
     vertices: Vec<Vertex>,
-    /// Vertex of the right half for each vertex of the mesh.
     images: Vec<Image>,
     triangles: Vec<[usize; 3]>,
 }
 
 impl Template {
-    /// Template of a sex, which is made on first use.
+    /// Makes it on first use.
     pub fn of(sex: Sex) -> &'static Self {
         static MALE: LazyLock<Template> = LazyLock::new(|| Template::new(Sex::Male));
         static FEMALE: LazyLock<Template> = LazyLock::new(|| Template::new(Sex::Female));
@@ -107,7 +98,6 @@ impl Template {
         }
     }
 
-    /// Person whose skin the template is.
     pub fn person(sex: Sex) -> Profile {
         let [stature, mass_index] = FIGURE;
         let weight_kg = Some(mass_index * stature * stature);
@@ -135,7 +125,6 @@ impl Template {
         Self { stature, parts: figure.parts(), rings, vertices, images, triangles: mesh.triangles }
     }
 
-    /// True if a mesh is this skin carried to a figure.
     pub fn is_skin_of(&self, mesh: &TriMesh) -> bool {
         self.triangles == mesh.triangles
     }
@@ -245,7 +234,6 @@ impl Tie {
     }
 }
 
-/// Vertex of the right half (vertices `right`) for each vertex of the mesh.
 fn images(positions: &[V3], right: &[usize]) -> Vec<Image> {
     let mut by_height: Vec<usize> = (0..right.len()).collect();
     by_height.sort_by(|&a, &b| positions[right[a]].z.total_cmp(&positions[right[b]].z));

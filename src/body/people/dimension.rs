@@ -8,13 +8,12 @@ use crate::Sex;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Dimension {
-    /// Height from the floor to the crown of the head.
     Stature,
-    /// Body mass, kg.
+    /// Mass in kg.
     Weight,
     /// Chest (men) or bust (women) girth.
     ChestGirth,
-    /// Waist girth, at the ISO 8559-1 level.
+    /// Level of ISO 8559-1.
     WaistGirth,
     /// Girth at the greatest protrusion of the buttocks.
     HipGirth,
@@ -24,15 +23,15 @@ pub enum Dimension {
     AcrossShoulder,
     /// Girth of the thigh just below the crotch.
     ThighGirth,
-    /// Knee girth, at the middle of the kneecap.
+    /// Level of the middle of the kneecap.
     KneeGirth,
     /// Greatest girth of the calf.
     CalfGirth,
     /// Least girth above the ankle.
     AnkleGirth,
-    /// Upper arm girth, relaxed.
+    /// Relaxed arm.
     UpperArmGirth,
-    /// Forearm girth, relaxed.
+    /// Relaxed arm.
     ForearmGirth,
     /// Girth over the wrist bones.
     WristGirth,
@@ -40,23 +39,18 @@ pub enum Dimension {
     Inseam,
     /// Distance from the shoulder point over the elbow to the wrist.
     ArmLength,
-    /// Length of the foot, from the heel to the tip of the longest toe.
     FootLength,
     /// Breadth across the upper arms (bideltoid, ISO 7250-1), which is always estimated.
     ShoulderBreadth,
-    /// Girth of the trunk under the bust.
     UnderbustGirth,
 }
 
-/// Number of dimensions.
 pub(crate) const COUNT: usize = 19;
 
-/// Names and accepted range of a dimension.
 struct Facts {
     key: &'static str,
     name: &'static str,
     words: &'static str,
-    /// Least and greatest accepted value, m or kg.
     range: [f64; 2],
 }
 
@@ -91,42 +85,33 @@ impl Dimension {
     };
 
     /// Key in study files, tables and JSON, with its unit.
-    #[must_use]
     pub const fn key(self) -> &'static str {
         self.facts().key
     }
 
-    /// Name for readers.
-    #[must_use]
     pub const fn name(self) -> &'static str {
         self.facts().name
     }
 
     /// Description, if the name alone does not suffice.
-    #[must_use]
     pub const fn words(self) -> &'static str {
         self.facts().words
     }
 
     /// Least and greatest accepted value, m or kg. Judgement: wider than the range of the adults in the survey.
-    #[must_use]
     pub fn range(self) -> [f64; 2] {
         self.facts().range
     }
 
     /// Number of units of the key in one SI unit.
-    #[must_use]
     pub fn per_si(self) -> f64 {
         if self == Self::Weight { 1.0 } else { 1e3 }
     }
 
-    /// Unit of the key.
-    #[must_use]
     pub fn unit(self) -> &'static str {
         if self == Self::Weight { "kg" } else { "mm" }
     }
 
-    /// Key, name, description and accepted range.
     const fn facts(self) -> Facts {
         match self {
             Self::Stature => facts("stature_mm", "stature", "Stature", [1.30, 2.20]),
@@ -166,46 +151,38 @@ impl Dimension {
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(into = "Written", try_from = "Written")]
 pub struct Measurements {
-    /// Sex, which decides the table of the survey by which missing dimensions are estimated.
+    /// Decides the table of the survey for missing dimensions.
     pub sex: Sex,
     values: [Option<f64>; COUNT],
 }
 
 impl Measurements {
-    /// Subject of whom only sex and stature (m) are known.
-    #[must_use]
     pub fn of(sex: Sex, stature_m: f64) -> Self {
         Self { sex, values: [None; COUNT] }.with(Dimension::Stature, stature_m)
     }
 
-    /// Returns the subject with a dimension set, m or kg, or removed by `None`.
-    #[must_use]
+    /// Sets a dimension, m or kg. `None` removes it.
     pub fn with(mut self, dimension: Dimension, value: impl Into<Option<f64>>) -> Self {
         self.set(dimension, value);
         self
     }
 
-    /// Value of a dimension, m or kg. `None` if it is unknown.
-    #[must_use]
     pub fn get(&self, dimension: Dimension) -> Option<f64> {
         self.values[dimension as usize]
     }
 
-    /// Sets a dimension, m or kg, or removes it by `None`. The breadth across the upper arms cannot be given and is
-    /// ignored.
+    /// Sets a dimension, m or kg, or removes it by `None`. Ignores the breadth across the upper arms.
     pub fn set(&mut self, dimension: Dimension, value: impl Into<Option<f64>>) {
         if dimension != Dimension::ShoulderBreadth {
             self.values[dimension as usize] = value.into();
         }
     }
 
-    /// Stature, m. NaN if it is unknown.
-    #[must_use]
+    /// NaN if it is unknown.
     pub fn stature_m(&self) -> f64 {
         self.get(Dimension::Stature).unwrap_or(f64::NAN)
     }
 
-    /// All known dimensions with their values, m or kg.
     pub fn known(&self) -> impl Iterator<Item = (Dimension, f64)> + '_ {
         Dimension::ALL.into_iter().filter_map(|dimension| self.get(dimension).map(|value| (dimension, value)))
     }
@@ -219,7 +196,6 @@ struct Written {
     values: BTreeMap<String, Option<f64>>,
 }
 
-/// Key of a dimension in SI units.
 fn si_key(dimension: Dimension) -> String {
     let key = dimension.key();
     key.strip_suffix("_mm").map_or_else(|| key.to_owned(), |stem| format!("{stem}_m"))

@@ -6,7 +6,6 @@ use crate::{Dimension, Measurements, Sex};
 /// Person with given normal scores. The first dimension lies its score away from the median of all people, each further
 /// one from that of the people with the same preceding dimensions. Independent normal scores give people as often as
 /// they occur in the survey [Gordon 2014].
-#[must_use]
 pub fn person(sex: Sex, scores: &[(Dimension, f64)]) -> Measurements {
     let survey = Survey::of(sex);
     let mut given: Vec<(Dimension, f64)> = Vec::with_capacity(scores.len());
@@ -20,7 +19,6 @@ pub fn person(sex: Sex, scores: &[(Dimension, f64)]) -> Measurements {
 }
 
 /// Normal scores of the known dimensions of a subject, each among all people of the survey.
-#[must_use]
 pub fn scores(subject: &Measurements) -> Vec<(Dimension, f64)> {
     let survey = Survey::of(subject.sex);
     subject.known().map(|(dimension, value)| (dimension, survey.expect(&[dimension], &[])[0].score(value))).collect()

@@ -9,8 +9,7 @@ use crate::{BodyError, Measurements, Sex};
 use geom::units::from_mm;
 use std::collections::BTreeMap;
 
-/// Trait in which a body may depart from the standard body of its measurements. An amount above 0 is the longer or
-/// fuller one.
+/// Departure of a body from the standard body of its measurements. Above 0 is the longer or fuller one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Trait {
@@ -31,9 +30,7 @@ pub enum Trait {
     ShoulderSlope,
     /// Distance by which the shoulder point lies in front of the middle of the neck, between front and back neck point.
     ShoulderForward,
-    /// Upper arm girth.
     UpperArm,
-    /// Thigh girth.
     Thigh,
     /// Body rise: upright from the crotch to the waist level.
     Rise,
@@ -41,21 +38,18 @@ pub enum Trait {
     HighHip,
 }
 
-/// Number of traits.
 pub(crate) const TRAITS: usize = 11;
 
 /// One value for each trait, m.
 pub(crate) type ByTrait<T> = [T; TRAITS];
 
 impl Trait {
-    /// All traits.
     pub const ALL: [Self; TRAITS] = {
         use Trait::*;
         [Seat, Abdomen, SwayBack, UpperBack, Bust, ShoulderSlope, ShoulderForward, UpperArm, Thigh, Rise, HighHip]
     };
 
     /// Name of the figure with more (`amount` of 0 and above) or less of the trait.
-    #[must_use]
     pub fn name(self, amount: f64) -> &'static str {
         let sign = if amount < 0.0 { -1.0 } else { 1.0 };
         let named = NAMED.iter().find(|named| named.of == self && named.sign == sign);
@@ -70,12 +64,11 @@ pub(crate) const DIMENSIONS: [(Trait, Dimension, f64); 3] = [
     (Trait::Rise, Dimension::Inseam, -1.0),
 ];
 
-/// Named figure.
 struct Named {
     name: &'static str,
     of: Trait,
     sign: f64,
-    /// Slight, medium and strong amounts, mm.
+    /// Slight, medium and strong amounts.
     usual_mm: [f64; 3],
 }
 
@@ -126,9 +119,6 @@ pub struct Figures(BTreeMap<Trait, f64>);
 impl Figures {
     /// Reads figures as `flat_seat`, `flat_seat=strong` or `flat_seat=18` (mm).
     ///
-    /// # Errors
-    /// [`BodyError::Figure`] for a name or an amount that is not known, or a trait that is given twice.
-    ///
     /// # Examples
     /// ```
     /// use body::{Figures, Trait};
@@ -153,14 +143,11 @@ impl Figures {
         Ok(figures)
     }
 
-    /// True without any figure.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Amount of a trait, mm, with its sign. 0 for the standard body.
-    #[must_use]
+    /// Amount with its sign. 0 for the standard body.
     pub fn amount_mm(&self, of: Trait) -> f64 {
         self.0.get(&of).copied().unwrap_or(0.0)
     }
@@ -175,10 +162,7 @@ impl Figures {
         self.0.iter().map(|(of, amount)| (*of, *amount))
     }
 
-    /// Checks that a person may have the figures.
-    ///
-    /// # Errors
-    /// [`BodyError::Figure`] for a figure that a given measurement decides, or that the sex does not have.
+    /// Fails for a figure that a given measurement decides, or that the sex does not have.
     pub fn check(&self, known: &Measurements) -> Result<(), BodyError> {
         for (of, amount) in self.iter() {
             let refused = |problem, accepted: &str| Err(refused(of.name(amount), problem, accepted.to_owned()));

@@ -27,7 +27,7 @@ const NAMES: [(Dimension, &[&str]); 18] = [
     (Dimension::FootLength, &["foot_length"]),
 ];
 
-/// Reads the measurements of a file in any of these formats. `sex` is used if the file does not say it.
+/// Uses `sex` if the file does not say it.
 pub fn read_foreign(bytes: &[u8], sex: Option<Sex>) -> Result<Measurements, BodyError> {
     let text = std::str::from_utf8(bytes).map_err(|error| refused(error.to_string(), "a text file in UTF-8"))?;
     let text = text.trim_start_matches('\u{feff}').trim_start();
@@ -51,7 +51,6 @@ pub fn read_foreign(bytes: &[u8], sex: Option<Sex>) -> Result<Measurements, Body
     Ok(others.fold(Measurements::of(sex, stature), |all, (dimension, value)| all.with(dimension, value)))
 }
 
-/// Content of a file.
 struct Told {
     sex: Option<Sex>,
     /// Unit of length of the file, m.
@@ -92,7 +91,6 @@ fn number(text: &str) -> Option<f64> {
     text.trim().replace(',', ".").parse().ok()
 }
 
-/// Sex by a word of a file.
 fn sex_of(word: &str) -> Option<Sex> {
     match word.trim().trim_matches(['"', '\'']).to_lowercase().as_str() {
         "male" | "m" => Some(Sex::Male),

@@ -7,9 +7,8 @@ use super::survey::Survey;
 use crate::{BodyError, Measurements, Sex};
 use nalgebra::{DMatrix, DVector};
 
-/// Standard deviations of one reading by a trained measurer, m: of small girths and heights, large girths, lengths, the
-/// foot. These are the mean differences that ISO 20685-1 accepts between a scan and a trained measurer [ISO 20685-1;
-/// Kouchi 2020].
+/// Standard deviations of a reading by a trained measurer, m: of small girths and heights, large girths, lengths, the
+/// foot. Mean differences that ISO 20685-1 accepts from a scan [ISO 20685-1; Kouchi 2020].
 const SMALL_M: f64 = 4e-3;
 const LARGE_M: f64 = 9e-3;
 const LENGTH_M: f64 = 5e-3;
@@ -19,7 +18,6 @@ const WEIGHT_KG: f64 = 0.5;
 
 impl Dimension {
     /// Standard deviation of a reading by a trained measurer, by tape or on a scan, m or kg [ISO 20685-1].
-    #[must_use]
     pub fn reading_error(self) -> f64 {
         use Dimension::*;
         match self {
@@ -51,18 +49,14 @@ struct Reading {
 }
 
 impl Likely {
-    /// Number of normal scores that determine a person.
     pub const SCORES: usize = COUNT;
 
-    /// Distribution of a person of whom only the sex is known.
-    #[must_use]
     pub fn anybody(sex: Sex) -> Self {
         Self::seen(sex, &[])
     }
 
-    /// Distribution of a person with these readings. `error` is the standard deviation of the error of each reading (m,
-    /// kg). The posterior mean lies between a reading and its expectation by the other readings, nearer to the more
-    /// certain one.
+    /// Distribution of a person with these readings, whose errors have the standard deviations `error` (m, kg). The
+    /// posterior mean lies between a reading and its expectation by the others, nearer to the more certain one.
     pub fn of(readings: &Measurements, error: impl Fn(Dimension) -> f64) -> Result<Self, BodyError> {
         Profile::new(readings)?;
         let reading = |(dimension, value)| Reading { dimension, value, error: error(dimension) };
@@ -87,14 +81,10 @@ impl Likely {
         Self { sex, mean, root: root(left) }
     }
 
-    /// The person with the median of every dimension.
-    #[must_use]
     pub fn median(&self) -> Measurements {
         self.person(&[0.0; COUNT])
     }
 
-    /// Person with independent normal scores.
-    #[must_use]
     pub fn person(&self, scores: &[f64; Self::SCORES]) -> Measurements {
         let off = &self.root * DVector::from_column_slice(scores);
         let mut person = Measurements::of(self.sex, f64::NAN);
@@ -106,13 +96,12 @@ impl Likely {
     }
 
     /// Standard deviation of the logarithm of a dimension.
-    #[must_use]
     pub fn spread(&self, dimension: Dimension) -> f64 {
         self.root.row(dimension as usize).norm()
     }
 }
 
-/// Symmetric square root of a covariance. Eigenvalues that rounding made negative count as zero.
+/// Counts eigenvalues that rounding made negative as zero.
 fn root(covariance: DMatrix<f64>) -> DMatrix<f64> {
     let turned = (0.5 * (&covariance + covariance.transpose())).symmetric_eigen();
     let lengths = DMatrix::from_diagonal(&turned.eigenvalues.map(|value| value.max(0.0).sqrt()));

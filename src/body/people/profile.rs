@@ -4,8 +4,7 @@ use super::dimension::{COUNT, Dimension};
 use super::survey::{Expected, Survey};
 use crate::{BodyError, Measurements, Sex};
 
-/// Deviations from the conditional expectation, in standard deviations, beyond which girths and lengths are refused.
-/// Judgement.
+/// Standard deviations from the conditional expectation beyond which girths and lengths are refused. Judgement.
 const IMPOSSIBLE_GIRTH: f64 = 8.0;
 const IMPOSSIBLE_LENGTH: f64 = 5.0;
 
@@ -21,8 +20,7 @@ pub(crate) struct Profile {
 }
 
 impl Profile {
-    /// Checks the measurements and estimates the missing ones: each as the median of the people of the survey who share
-    /// all that is known.
+    /// Estimates missing measurements as the median of the people of the survey who share all that is known.
     pub fn new(known: &Measurements) -> Result<Self, BodyError> {
         check_ranges(known)?;
         check_pairs(known)?;
@@ -37,7 +35,6 @@ impl Profile {
         Ok(profile)
     }
 
-    /// A dimension, m or kg.
     pub fn at(&self, dimension: Dimension) -> f64 {
         self.values[dimension as usize]
     }
@@ -48,7 +45,6 @@ impl Profile {
         self.given[dimension as usize] = true;
     }
 
-    /// True if a dimension was measured.
     pub fn is_given(&self, dimension: Dimension) -> bool {
         self.given[dimension as usize]
     }
@@ -65,7 +61,6 @@ fn check_ranges(known: &Measurements) -> Result<(), BodyError> {
     Err(BodyError::OutOfRange { name, value: value * dimension.per_si(), least, greatest, unit })
 }
 
-/// Measurement that is inconsistent with another one.
 struct Misfit {
     /// Deviation from the expectation, divided by the accepted deviation.
     excess: f64,
@@ -74,7 +69,6 @@ struct Misfit {
     expected: Expected,
 }
 
-/// Refuses two measurements that are inconsistent at this stature, or one that is inconsistent with the stature.
 fn check_pairs(known: &Measurements) -> Result<(), BodyError> {
     let survey = Survey::of(known.sex);
     let stature = (Dimension::Stature, known.stature_m());
@@ -117,7 +111,6 @@ fn limit(dimension: Dimension) -> f64 {
 /// Measurement that few people have.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Doubt {
-    /// Key of the measurement.
     pub measurement: &'static str,
     /// Given value, mm or kg.
     pub value: f64,
@@ -140,9 +133,7 @@ impl std::fmt::Display for Doubt {
     }
 }
 
-/// Measurements of a subject that fewer than one in a hundred people of the same stature and weight have, but that are
-/// possible.
-#[must_use]
+/// Possible measurements that fewer than one in a hundred people of the same stature and weight have.
 pub fn plausibility(known: &Measurements) -> Vec<Doubt> {
     let finite = known.known().all(|(_, value)| value.is_finite() && value > 0.0);
     if !finite {
@@ -168,20 +159,16 @@ const DENSITY: f64 = 1.01;
 /// Greatest relative difference between weight and mass from volume that is not reported. Judgement.
 const UNEXPLAINED: f64 = 0.10;
 
-/// Mass by the volume of a body, and requested weight.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Mass {
-    /// Mass, kg: volume times 1.01 kg/l.
+    /// Volume times 1.01 kg/l.
     pub mass_from_volume_kg: f64,
-    /// Requested weight, kg. `None` if none was requested.
     pub weight_asked_kg: Option<f64>,
-    /// Relative difference between mass and requested weight, per cent. `None` without a requested weight.
+    /// Difference between mass and weight, relative to the requested weight.
     pub mass_off_percent: Option<f64>,
 }
 
 impl Mass {
-    /// Mass of a volume in l.
-    #[must_use]
     pub fn of(volume_l: f64, weight_kg: Option<f64>) -> Self {
         let mass = DENSITY * volume_l;
         let off = weight_kg.map(|weight| 100.0 * (mass / weight - 1.0));
@@ -207,12 +194,10 @@ impl std::fmt::Display for Mass {
 
 /// Percentile (0 to 100) of a value (m or kg) among the adults of a sex [Gordon 2014], of the given stature (m) and
 /// weight (kg). `None` for any stature or weight.
-#[must_use]
 pub fn percentile(sex: Sex, dimension: Dimension, value: f64, stature_m: Option<f64>, weight_kg: Option<f64>) -> f64 {
     100.0 * share_below(alike(sex, dimension, stature_m, weight_kg).score(value))
 }
 
-/// Distribution of a dimension among people of a stature and a weight. `None` for any.
 fn alike(sex: Sex, dimension: Dimension, stature_m: Option<f64>, weight_kg: Option<f64>) -> Expected {
     let given: Vec<(Dimension, f64)> = [(Dimension::Stature, stature_m), (Dimension::Weight, weight_kg)]
         .into_iter()
@@ -236,7 +221,6 @@ fn share_below(score: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Survey medians (men and women).
     #[test]
     fn the_mean_soldier_is_found_again() {
         let check = |sex, stature_m, weight_kg, chest: f64, hip: f64| {

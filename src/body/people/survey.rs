@@ -39,14 +39,12 @@ impl Expected {
         (value.ln() - self.mean) / self.sd
     }
 
-    /// Value with a normal score.
     pub fn at(self, score: f64) -> f64 {
         (self.mean + score * self.sd).exp()
     }
 }
 
 impl Survey {
-    /// Men or women of the survey.
     pub fn of(sex: Sex) -> &'static Self {
         match sex {
             Sex::Male => &MALE,
@@ -70,15 +68,14 @@ impl Survey {
         (DVector::from_column_slice(&self.mean), covariance)
     }
 
-    /// Covariance with a ridge. Correlations rounded to three places need not be positive definite. A thousandth of
-    /// each variance, taken as independent, makes them so.
+    /// Covariance with a thousandth of each variance taken as independent: correlations rounded to three places need
+    /// not be positive definite.
     fn ridged(&self, a: Dimension, b: Dimension) -> f64 {
         let covariance = self.covariance(a, b);
         covariance * (1.0 - RIDGE) + if a == b { RIDGE * covariance } else { 0.0 }
     }
 
-    /// Distribution of each of the `wanted` dimensions among people with the `given` values (m or kg, each dimension at
-    /// most once).
+    /// Distribution of `wanted` dimensions among people with the `given` values (m or kg), each dimension at most once.
     pub fn expect(&self, wanted: &[Dimension], given: &[(Dimension, f64)]) -> Vec<Expected> {
         let count = given.len();
         let covariance = DMatrix::from_fn(count, count, |i, j| self.ridged(given[i].0, given[j].0));

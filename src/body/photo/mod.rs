@@ -11,7 +11,6 @@ mod trunk;
 
 use crate::BodyError;
 
-/// Error of a picture that cannot be used.
 fn refused(view: &'static str, problem: impl Into<String>) -> BodyError {
     BodyError::Picture { view, problem: problem.into() }
 }

@@ -36,12 +36,10 @@ const SOLES_NEARER: f64 = 0.09;
 /// least standard deviation for 700 pictures of model bodies: 4 and 6 mm.
 const CROWN_COUNTS: [f64; 2] = [0.5, 0.8];
 
-/// Greatest relative difference between a person's height in a picture and the height by stature, distance and focal
-/// length. Judgement.
+/// Greatest relative difference between heights of a person in a picture and by stature and camera. Judgement.
 const MISFIT: f64 = 0.03;
 
-/// Range of heights, from thigh to waist, at which the subject's axis is found in the side view, as shares of stature,
-/// and number of these heights. Judgement.
+/// Range of heights from thigh to waist / stature for the subject's axis in the side view, and their number. Judgement.
 const UPRIGHT: [f64; 2] = [0.30, 0.62];
 const UPRIGHTS: u32 = 33;
 
@@ -56,11 +54,9 @@ struct Lens {
     distance_m: f64,
 }
 
-/// Silhouette with its scale.
 #[derive(Clone, Debug)]
 pub(super) struct View {
     mask: Mask,
-    /// First and last row of the person.
     rows: (usize, usize),
     /// Lens and distance. `None` for an orthographic view.
     camera: Option<Lens>,
@@ -94,8 +90,7 @@ impl View {
         rows.filter(|row| apart(*row)).count() > 10
     }
 
-    /// Returns the view with the height of its camera, from the rows of crown and soles. `crown_counts` is the weight
-    /// of the crown.
+    /// Sets the height of the camera from the rows of crown and soles. `crown_counts` is the weight of the crown.
     fn of_stature(mut self, stature: f64, crown_counts: f64) -> Self {
         let Some(Lens { focal_px: focal, distance_m: distance }) = self.camera else { return self };
         let middle = self.mask.height as f64 / 2.0;
@@ -106,7 +101,6 @@ impl View {
         self
     }
 
-    /// The widest run of a row.
     fn widest(&self, row: usize) -> Option<Run> {
         self.mask.runs(row).into_iter().max_by_key(|(start, end)| end - start)
     }
@@ -120,7 +114,6 @@ pub(super) struct Outlines {
     stature: f64,
     /// Column of the subject's axis in the side view.
     axis: f64,
-    /// Height of the crotch, m.
     pub crotch: f64,
 }
 
@@ -221,7 +214,6 @@ impl Outlines {
         Some([edge(nearer[0], true)?, edge(nearer[1], false)?])
     }
 
-    /// Finds the column of the subject's axis in the side view.
     fn find_axis(&self) -> Option<f64> {
         let middle = |height: f64| {
             let (back, front) = self.side.widest(self.row(&self.side, height, 0.0)?)?;
@@ -250,14 +242,12 @@ impl Outlines {
         self.head_column().is_some_and(|middle| middle > start as f64 + quarter && middle < end as f64 - quarter)
     }
 
-    /// Middle column of the head in the front view.
     fn head_column(&self) -> Option<f64> {
         let (start, end) = self.front.widest(self.row(&self.front, 0.94 * self.stature, 0.0)?)?;
         Some((start + end) as f64 / 2.0)
     }
 
-    /// Distance of the middle of the trunk from the axis towards the camera of the front view. Without a camera 0,
-    /// because it changes nothing.
+    /// Distance of the trunk's middle from the axis towards the front camera. Without a camera 0: it changes nothing.
     fn middle_depth(&self, height: f64) -> f64 {
         let depth = |h: f64| self.profile(h, [0.0; 2]).map(|[front, back]| (front + back) / 2.0);
         // The subject stands on the axis of the ankles, wherever in the side picture that is.
@@ -278,7 +268,6 @@ impl Outlines {
         Ok(Section { level, height, width, depth: front - back })
     }
 
-    /// Height at which the gap between the legs ends.
     fn find_crotch(&self) -> Option<f64> {
         let gap = |height: f64| {
             let middle = self.head_column()?;
@@ -291,7 +280,6 @@ impl Outlines {
         heights.get(last + 1).copied()
     }
 
-    /// Level of the greatest protrusion of the buttocks. `None` if the outline is not seen.
     fn hip_level(&self) -> Option<f64> {
         let heights = steps(self.crotch + 0.01 * self.stature, self.crotch + 0.10 * self.stature, 48);
         let back = |z: f64| Some((z, self.profile(z, [0.0, NEARER * 0.1 * self.stature])?[1]));
@@ -339,7 +327,6 @@ impl Outlines {
         Ok(Section { level: Level::Neck, height, width, depth })
     }
 
-    /// True if both arms are apart from the trunk at a height in the front view.
     fn arms_apart(&self, height: f64) -> bool {
         let nearer = self.middle_depth(height);
         let (Some(row), Some((start, end))) = (self.row(&self.front, height, nearer), self.trunk_run(height, nearer))
@@ -350,8 +337,7 @@ impl Outlines {
         runs.iter().any(|run| run.1 <= start) && runs.iter().any(|run| run.0 >= end)
     }
 
-    /// Width of a chest whose sides the arms hide: at the nearest height below at which the arms are apart. `None` if
-    /// they do not hide the chest.
+    /// Width of a chest whose sides arms hide: at the nearest height below with arms apart. `None` if they do not.
     fn hidden_chest_width(&self, chest: f64) -> Option<f64> {
         if self.arms_apart(chest) {
             return None;

@@ -25,22 +25,17 @@ const MOST_LEAN_DEG: [f64; 2] = [3.0, 6.0];
 /// Greatest dark and least bright gray level of a mask, which has nothing between. Judgement.
 const MASK_LEVELS: [u8; 2] = [40, 215];
 
-/// Measurements of a body from two pictures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pictured {
-    /// Sex, stature and girths, ready for [`crate::build`].
     pub measurements: Measurements,
-    /// Neck, chest, waist and hip: height, width, depth and girth.
+    /// Neck, chest, waist and hip.
     pub levels: Vec<PicturedLevel>,
-    /// Height of the crotch, m.
     pub crotch_level_m: f64,
     /// Assumptions, as sentences for the user.
     pub notes: Vec<String>,
 }
 
-/// Girth level read from two pictures, m.
 #[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs)]
 pub struct PicturedLevel {
     pub name: &'static str,
     pub level_m: f64,
@@ -117,7 +112,6 @@ fn decoder<'a>(view: &'static str, bytes: &'a [u8]) -> Result<(impl ImageDecoder
     Ok((decoder, orientation))
 }
 
-/// Name of the format of a picture that is not read.
 fn format_of(bytes: &[u8]) -> &'static str {
     let is_brand =
         |brands: &[&[u8]]| bytes.get(4..8) == Some(b"ftyp") && brands.iter().any(|b| bytes.get(8..12) == Some(*b));
@@ -146,14 +140,10 @@ fn size(view: &'static str, bytes: &[u8]) -> Result<(u32, u32), BodyError> {
 }
 
 /// Height of the front picture in pixels, for [`Camera::of_focal`].
-///
-/// # Errors
-/// [`BodyError::Picture`] if the picture cannot be read.
 pub fn picture_height(front: &[u8]) -> Result<u32, BodyError> {
     size("front", front).map(|(_, height)| height)
 }
 
-/// Mask of the person in a picture: read from a mask, or segmented from a photograph.
 fn person(view: &'static str, bytes: &[u8]) -> Result<Mask, BodyError> {
     let (width, height) = size(view, bytes)?;
     if u64::from(width) * u64::from(height) > MOST_PIXELS {

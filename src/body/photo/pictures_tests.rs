@@ -3,7 +3,6 @@ use crate::Dimension;
 use crate::testing::{Taken, in_mm, placed, png, silhouette};
 use geom::V3;
 
-/// Folder of the reference bodies beside the project, if it is there.
 fn reference() -> Option<std::path::PathBuf> {
     let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/bodies"));
     folder.is_dir().then(|| folder.to_path_buf())
@@ -73,7 +72,6 @@ fn bad_pictures_are_refused_with_the_reason() {
     );
 }
 
-/// Front and side silhouettes of a built body as PNG.
 fn silhouettes(mesh: &geom::TriMesh, taken: Taken, size: [u32; 2]) -> [image::GrayImage; 2] {
     [false, true].map(|side| silhouette(mesh, side, taken, size))
 }
@@ -106,7 +104,6 @@ fn silhouettes_of_built_bodies_give_their_girths() {
     }
 }
 
-/// Girths of the levels, mm, and true if a note says that the side picture was turned.
 fn read_girths(front: &[u8], side: &[u8], sex: Sex, stature_m: f64) -> ([f64; 4], bool) {
     let found = from_pictures(front, side, None, sex, stature_m).expect("a person");
     assert!(!found.notes.iter().any(|note| note.contains("do not tell")), "{:?}", found.notes);

@@ -9,7 +9,6 @@ pub(super) const STEP: f64 = 0.02;
 pub(super) const WIDTHS: usize = 12;
 pub(super) const SIDES: usize = 17;
 
-/// Girth level that pictures show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Level {
     Neck,
@@ -41,7 +40,6 @@ pub(super) struct Section {
 /// Outlines of the trunk in two pictures, m.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Profile {
-    /// Widths from side to side.
     pub widths: [Option<f64>; WIDTHS],
     /// Positions of front and back from the subject's axis.
     pub sides: [Option<[f64; 2]>; SIDES],

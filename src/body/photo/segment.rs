@@ -136,8 +136,7 @@ impl Background {
         self.trimmed(logs, Mask::new(logs.width, logs.height, kept).opened())
     }
 
-    /// Trims the rows of a mask to where the picture is half way between person and background, so that blurred edges
-    /// are not read too wide.
+    /// Trims rows to where the picture is half way between person and background, so that blur does not widen them.
     fn trimmed(&self, logs: &Logs, mut mask: Mask) -> Mask {
         for row in 0..mask.height {
             for (start, end) in mask.runs(row) {
@@ -156,8 +155,7 @@ impl Background {
         mask
     }
 
-    /// True if a pixel is nearer in colour to the person's pixel `within` than to the background, in the channel of
-    /// greatest contrast.
+    /// True if a pixel is nearer in colour to pixel `within` than to the background, in the channel of most contrast.
     fn is_person(&self, logs: &Logs, i: usize, within: usize) -> bool {
         let terms = terms(logs.place(i));
         let light = |log: f64| log.exp();

@@ -1,6 +1,5 @@
 //! Silhouette of a person in a picture, as a mask of pixels.
 
-/// Pixels of a picture that show the person.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Mask {
     pub width: usize,
@@ -32,13 +31,11 @@ impl Mask {
         Some((row(first), row(last)))
     }
 
-    /// Mirrors the mask left to right.
     pub fn mirrored(&self) -> Self {
         let bits = self.bits.chunks(self.width.max(1)).flat_map(|row| row.iter().rev().copied()).collect();
         Self { bits, ..*self }
     }
 
-    /// Number of the person's pixels.
     pub fn area(&self) -> usize {
         self.bits.iter().filter(|bit| **bit).count()
     }

@@ -16,14 +16,12 @@ use nalgebra::{DMatrix, DVector};
 use super::sections::{LOWEST, Level, Profile, SIDES, STEP, Section, WIDTHS, ellipse};
 use crate::Sex;
 
-/// Number of values of an outline: widths, fronts and backs.
 const OUTLINE: usize = WIDTHS + 2 * SIDES;
 
 /// Number of the lowest fronts and backs, which hands may hide. They have little weight until the others are fitted.
 const HANDS: usize = 9;
 
-/// Prior standard deviations of the position of the axis in the side view, as a share of stature, and of the relative
-/// scale.
+/// Prior standard deviations of the axis position in the side view / stature, and of the relative scale.
 const MOVED: f64 = 0.02;
 const SCALED: f64 = 0.007;
 
@@ -62,17 +60,14 @@ pub(super) struct Seen {
     pub is_near: bool,
 }
 
-/// Measurements of a level of the trunk, m.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Read {
     pub width_m: f64,
     pub depth_m: f64,
     pub girth_m: f64,
-    /// Half width of the interval of the girth that contains four in five people.
     pub within_m: f64,
 }
 
-/// Statistical model of one sex.
 #[derive(Debug, serde::Deserialize)]
 struct Learned {
     /// Mean of the height of the crotch, then of the outline.
@@ -259,7 +254,6 @@ fn weight(i: usize, departure: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Observations of the mean trunk of a sex from far away, seen at a stature.
     fn mean(sex: Sex, stature_m: f64) -> Seen {
         let learned = learned(sex);
         let value = |i: usize| learned.mean[1 + i] * stature_m;

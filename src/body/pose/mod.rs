@@ -64,8 +64,7 @@ impl FromStr for Pose {
 }
 
 impl Pose {
-    /// Pose after a movement to `to`. Limbs that `to` does not name stay as they are.
-    #[must_use]
+    /// Limbs that `to` does not name stay as they are.
     pub fn then(self, to: Self) -> Self {
         Self {
             arm_deg: to.arm_deg.or(self.arm_deg),
@@ -80,14 +79,13 @@ impl Pose {
 const FRONTAL: [usize; 2] = [0, 2];
 const SAGITTAL: [usize; 2] = [1, 2];
 
-/// Accepted angles of arms and legs, degrees. Judgement.
+/// Accepted angles of arms and legs. Judgement.
 const ARM_DEG: [f64; 2] = [5.0, 90.0];
 const LEG_DEG: [f64; 2] = [0.0, 30.0];
 const FORWARD_DEG: [f64; 2] = [0.0, 60.0];
 const STEP_DEG: [f64; 2] = [0.0, 25.0];
 
-/// Distances from the armscye over which the rotation of the arm fades into the shoulder and grows to the whole in the
-/// arm, as shares of stature. Judgement.
+/// Distances from the armscye / stature over which the arm's rotation fades into the shoulder and is whole. Judgement.
 const ARM_REACH: [f64; 2] = [0.030, 0.085];
 
 /// Rotation of the leg, as shares of stature: depth below the hip level at which it begins, depth below the crotch at
@@ -96,8 +94,7 @@ const LEG_BEGINS: f64 = 0.006;
 const LEG_COMPLETE: f64 = 0.10;
 const BETWEEN_LEGS: f64 = 0.075;
 
-/// Least distance beyond the armscye of skin that belongs to the arm, m. Nearer skin may be that of the trunk below the
-/// armpit.
+/// Least distance beyond the armscye of skin of the arm, m. Nearer skin may be the trunk's below the armpit.
 const APART: f64 = 0.008;
 
 /// Distance past [`APART`] over which the skin of the arm below the armpit begins to move with the arm, m. Judgement.
@@ -106,8 +103,7 @@ const PARTING: f64 = 0.03;
 /// Clearance between the girth levels of the trunk and the skin that moves, m, so that the girths stay.
 const KEPT: f64 = 0.004;
 
-/// Puts a body into another pose. Fine mesh, control mesh, joints and landmarks move alike, and the feet are set on the
-/// floor.
+/// Moves fine mesh, control mesh, joints and landmarks alike, and sets the feet on the floor.
 pub fn pose(body: &Body, pose: Pose) -> Result<Body, BodyError> {
     let mut posed = body.clone();
     for side in [1.0, -1.0] {
@@ -203,7 +199,6 @@ fn smooth(t: f64) -> f64 {
     t * t * t * (t * (6.0 * t - 15.0) + 10.0)
 }
 
-/// An arm, and the region of the skin that moves with it.
 struct Arm {
     joint: V3,
     /// Unit normal of the armscye, outwards. The plane of the armscye passes through the joint.
@@ -298,12 +293,10 @@ impl Leg {
         }
     }
 
-    /// Share of the rotation for every vertex.
     fn shares(&self, mesh: &TriMesh) -> Vec<f64> {
         mesh.positions.iter().map(|p| self.share(p)).collect()
     }
 
-    /// Share of the rotation at a point of the skin.
     fn share(&self, p: &V3) -> f64 {
         let [low, high] = self.heights;
         // Hands that hang beside the thighs would move, too, because they are farther out than any thigh.
@@ -327,7 +320,6 @@ struct Turn {
     angle: f64,
 }
 
-/// Rotates the skin, control vertices and landmarks of a limb about its joint.
 fn apply(
     from: &Body,
     posed: &mut Body,
@@ -377,7 +369,6 @@ fn keep_volume(mesh: &mut TriMesh, volume: f64, shares: &[f64]) {
     }
 }
 
-/// All landmarks.
 fn points(landmarks: &mut Landmarks) -> Vec<&mut V3> {
     let Landmarks { side_neck, shoulder, back_neck, front_neck, armpit, bust, crotch } = landmarks;
     let pairs = side_neck.iter_mut().chain(shoulder).chain(armpit).chain(bust);
@@ -415,7 +406,6 @@ fn check(body: &Body) -> Result<(), BodyError> {
     Ok(())
 }
 
-/// Lowers or raises a posed body onto the floor.
 fn stand(body: &mut Body) {
     let Some((low, _)) = body.mesh.bounds() else { return };
     let down = low.z;

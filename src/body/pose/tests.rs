@@ -9,7 +9,6 @@ fn bodies() -> Vec<Body> {
     all.iter().map(|known| build(known).expect("an ordinary body")).collect()
 }
 
-/// Triangles whose normals oppose the mean normal of the surface around them.
 fn flipped(mesh: &TriMesh) -> usize {
     let normals = mesh.vertex_normals();
     let against =

@@ -3,8 +3,7 @@
 use geom::{TriMesh, V3};
 use nalgebra::{Matrix3, SymmetricEigen};
 
-/// Area of a piece as a share of the body's, below which the piece is noise. Judgement: a greater one drops a separate
-/// head.
+/// Share of the body's area below which a piece is noise. Judgement: a greater one drops a separate head.
 const LEAST_SHARE: f64 = 0.05;
 
 /// Area of a second piece as a share of the body's, above which it is another body. Judgement.
@@ -20,10 +19,8 @@ const FLOOR_THICKNESS: f64 = 0.008;
 /// Least area of a floor, divided by squared stature. Two soles have less.
 const FLOOR_AREA: f64 = 0.025;
 
-/// Keeps the pieces of the body, and notes what was left out.
-///
-/// The body is the piece of greatest area that is not flat. Other pieces stay if they are large and not flat, such as a
-/// head that a gap separates from its trunk.
+/// Keeps the piece of greatest area that is not flat, and other large pieces that are not flat, such as a head that a
+/// gap separates from its trunk. Notes what was left out.
 pub(crate) fn keep_body(mesh: &TriMesh, notes: &mut Vec<String>) -> TriMesh {
     let pieces = pieces(mesh);
     if pieces.len() == 1 {
@@ -135,7 +132,6 @@ pub(crate) fn principal_axes(mesh: &TriMesh, triangles: &[[usize; 3]]) -> Option
     Some((order.map(|i| eigen.eigenvalues[i].max(0.0)), order.map(axis)))
 }
 
-/// Mesh of some triangles, with the vertices that they use.
 pub(crate) fn used_part(mesh: &TriMesh, triangles: &[[usize; 3]]) -> TriMesh {
     let mut number = vec![usize::MAX; mesh.positions.len()];
     let mut part = TriMesh::default();

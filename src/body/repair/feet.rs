@@ -13,8 +13,7 @@ const END: f64 = 0.06;
 /// at least 0.132. A leg cut 40 mm above the floor has at most 0.128 left, one cut at the ankle 0.09.
 const FOOT: f64 = 0.130;
 
-/// The same for a leg without a hole. A shoe or a raised heel shortens what stands on the floor, and no hole suggests
-/// that something is missing. Judgement.
+/// The same for a leg without a hole: a shoe or a raised heel shortens what stands on the floor. Judgement.
 const CLOSED_FOOT: f64 = 0.115;
 
 /// A hole is the end of a leg if it is as low as the leg, up to this share of the height, and at least as long as this
@@ -22,7 +21,6 @@ const CLOSED_FOOT: f64 = 0.115;
 const AS_LOW: f64 = 0.005;
 const WHOLE_END: f64 = 0.5;
 
-/// Feet that a body has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Feet {
     pub right: bool,
@@ -30,10 +28,8 @@ pub(crate) struct Feet {
 }
 
 impl Feet {
-    /// Both feet.
     pub const BOTH: Self = Self { right: true, left: true };
 
-    /// Detects the feet of an upright mesh. `rims` are the rims of the holes of the mesh.
     pub fn of(mesh: &TriMesh, rims: &[Vec<usize>]) -> Self {
         let Some((low, high)) = mesh.bounds() else { return Self::BOTH };
         let middle = (low.x + high.x) / 2.0;
@@ -63,7 +59,6 @@ impl Feet {
     }
 }
 
-/// True if the leg of one side ends in a foot.
 fn has_foot(mesh: &TriMesh, rims: &[Vec<usize>], height: f64, is_of: impl Fn(&V3) -> bool) -> bool {
     let side = || mesh.positions.iter().filter(|p| is_of(p));
     let low = side().map(|p| p.z).fold(f64::INFINITY, f64::min);

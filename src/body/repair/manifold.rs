@@ -24,7 +24,6 @@ fn edges(mesh: &TriMesh) -> Vec<([usize; 2], usize)> {
     edges
 }
 
-/// Keeps the triangles whose flag is true.
 fn keep(mesh: &mut TriMesh, kept: &[bool]) {
     let mut flags = kept.iter();
     mesh.triangles.retain(|_| flags.next().copied().unwrap_or(true));

@@ -30,8 +30,7 @@ const MENDED: usize = 3;
 /// Greatest number of vertices of a patch that is faired. The solve is dense, so larger patches stay flat.
 const LARGEST_PATCH: usize = 900;
 
-/// Makes a mesh an orientable manifold, smooths it if it is rough, and closes its holes. Adds notes for the user, and
-/// returns the feet that the mesh has.
+/// Makes a mesh an orientable manifold, smooths it if it is rough, and closes its holes. Returns the feet it has.
 pub(super) fn repair(mesh: &mut TriMesh, notes: &mut Vec<String>) -> Result<Feet, BodyError> {
     let dropped = manifold::make_manifold(mesh);
     if dropped > 0 {
@@ -64,7 +63,6 @@ pub(super) fn repair(mesh: &mut TriMesh, notes: &mut Vec<String>) -> Result<Feet
     Ok(feet)
 }
 
-/// Length of a rim, metres.
 fn length(mesh: &TriMesh, rim: &[usize]) -> f64 {
     let next = rim.iter().cycle().skip(1);
     rim.iter().zip(next).map(|(&a, &b)| (mesh.positions[b] - mesh.positions[a]).norm()).sum()
@@ -93,8 +91,7 @@ fn to_mean(values: &[V3], around: &[usize], vertex: usize) -> V3 {
     around.iter().map(|&i| values[i]).sum::<V3>() / around.len() as f64 - values[vertex]
 }
 
-/// Roughness of a mesh, m, which measures the noise of a scan: median of half the normal component of the second
-/// umbrella over all vertices.
+/// Noise of a scan, m: median of half the normal component of the second umbrella over all vertices.
 fn roughness(mesh: &TriMesh) -> f64 {
     let around = neighbours(mesh);
     let normals = mesh.vertex_normals();
@@ -209,8 +206,7 @@ fn patch(mesh: &mut TriMesh, rim: &[usize], length: f64) -> std::ops::Range<usiz
     first..tip + 1
 }
 
-/// Places the vertices of a patch as a thin plate clamped at its rim: the umbrella of the umbrella is zero at each
-/// vertex.
+/// Makes a patch a thin plate clamped at its rim: the umbrella of the umbrella is zero at each vertex.
 fn fair(mesh: &mut TriMesh, around: &[Vec<usize>], fresh: std::ops::Range<usize>) {
     let count = fresh.len();
     let mut matrix = DMatrix::<f64>::zeros(count, count);

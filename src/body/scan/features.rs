@@ -13,7 +13,6 @@ use crate::{Body, BodyError, Landmarks, Sex};
 use geom::section::Plane;
 use geom::{TriMesh, V3};
 
-/// Describes a measured, closed scan in the world frame as a [`Body`].
 pub(super) fn describe(sex: Sex, mesh: TriMesh) -> Result<Body, BodyError> {
     let (sites, _) = sites::find_sites(&mesh, Some(sex), Feet::BOTH)?;
     let mut girths = sites::girths_at(&mesh, &sites)?;
@@ -59,8 +58,7 @@ fn mirror(p: V3) -> V3 {
     V3::new(-p.x, p.y, p.z)
 }
 
-/// Replaces the left limbs of a control mesh by those of `of_left`, whose right limbs were cut from the mirrored body
-/// and mirrored back.
+/// Replaces the left limbs by those of `of_left`, cut as right limbs from the mirrored body and mirrored back.
 fn take_left(control: &mut ControlMesh, of_left: &ControlMesh) {
     use Layer::*;
     let layers = [
@@ -99,7 +97,7 @@ fn landmarks(mesh: &TriMesh, sex: Sex, sites: &Sites, right: &Half, left: &Half)
     })
 }
 
-/// Planes of the rings of the control mesh. Those of the limbs are for the right side.
+/// Planes of the limbs are for the right side.
 fn cuts(mesh: &TriMesh, sex: Sex, sites: &Sites, landmarks: &Landmarks, half: &Half) -> Cuts {
     let (atlas, h) = (Atlas::of(sex), sites.crown - sites.floor);
     let (shoulder, armpit, arm) = (half.shoulder, half.armpit, &half.arm);

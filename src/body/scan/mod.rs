@@ -11,20 +11,16 @@ use crate::repair::feet::Feet;
 use crate::{Body, BodyError, Girths, Imported, LengthUnit, Measured, Sex};
 use geom::{TriMesh, V3};
 
-/// Distance of the trunk from the origin, to front or back, beyond which the body is moved onto the origin, m.
-/// Judgement.
+/// Distance of the trunk from the origin, to front or back, beyond which the body is moved there, m. Judgement.
 const OFF_AXIS: f64 = 0.04;
 
-/// Body scan in the world frame, with its girths.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scan {
     /// Scan: upright, facing `y`, without stray pieces and floor, smoothed if it was rough, with its holes closed.
     pub imported: Imported,
     /// Sex, given or estimated from neck, hip and waist girth.
     pub sex: Sex,
-    /// Girths that the tape reads on the scan.
     pub girths: Girths,
-    /// Feet that the scan has.
     feet: Feet,
 }
 
@@ -72,7 +68,6 @@ fn face_front(mesh: &mut TriMesh, sex: Option<Sex>) -> Option<String> {
 }
 
 impl Scan {
-    /// Girths, lengths, tailor's measurements and their uncertainties.
     pub fn measured(&self) -> Result<Measured, BodyError> {
         lengths::of_scan(&self.imported.mesh, self.sex, self.feet, self.girths.clone())
     }
@@ -87,7 +82,6 @@ impl Scan {
         if self.feet == Feet::BOTH { Ok(()) } else { Err(BodyError::Feet) }
     }
 
-    /// Body to dress: the repaired scan as fine mesh, with landmarks, control mesh and joints.
     pub fn into_body(self) -> Result<Body, BodyError> {
         self.check_feet()?;
         if !self.imported.mesh.is_closed_manifold() {

@@ -13,7 +13,6 @@ fn ordinary() -> TriMesh {
     built(Sex::Female, 1.66, 64.0).mesh
 }
 
-/// Noise, a floor, stray pieces and holes in crown and soles, as booth scanners leave them.
 fn spoil(mesh: &mut TriMesh) {
     let mut state = 7_u64;
     let mut noise = || {
@@ -220,7 +219,6 @@ const TRUNK: [&str; 5] = ["neck_girth_mm", "chest_girth_mm", "underbust_girth_mm
 /// Keys of limbs that do not depend on the floor.
 const LIMBS: [&str; 3] = ["forearm_girth_mm", "elbow_girth_mm", "wrist_girth_mm"];
 
-/// Written measurements of a scan, its notes on missing feet, and the scan.
 fn measured(mesh: &TriMesh, sex: Sex) -> (serde_json::Value, String, Scan) {
     let scan = from_scan(&binary_ply(mesh), None, Some(sex)).expect("a scan of a body");
     let written = serde_json::to_value(scan.measured().expect("a standing body")).expect("numbers");
@@ -229,7 +227,6 @@ fn measured(mesh: &TriMesh, sex: Sex) -> (serde_json::Value, String, Scan) {
     (written, said, scan)
 }
 
-/// Checks that a scan without feet says so, keeps the girths of its trunk, and leaves out what depends on the floor.
 fn check_footless(name: &str, whole: &TriMesh, sex: Sex) {
     let (truth, said, _) = measured(whole, sex);
     assert_eq!(said, "", "{name} is whole");

@@ -16,7 +16,6 @@
 use super::loft::Shape;
 use crate::Sex;
 
-/// A horizontal section of the trunk.
 #[derive(Debug)]
 pub(crate) struct TrunkLevel {
     /// Girth of the mean body, divided by stature.
@@ -25,7 +24,6 @@ pub(crate) struct TrunkLevel {
     pub depth_over_width: [f64; 2],
     /// Forward position of the centre, divided by stature, and its slope with girth / stature.
     pub centre: [f64; 2],
-    /// Cosine coefficients of the departure from the ellipse.
     pub shape: Shape,
 }
 
@@ -33,7 +31,6 @@ const fn level(girth: f64, depth_over_width: [f64; 2], centre: [f64; 2], shape: 
     TrunkLevel { girth, depth_over_width, centre, shape }
 }
 
-/// Proportions and mean sections of one sex.
 #[derive(Debug)]
 pub(crate) struct Atlas {
     /// Heights of crotch, hip, waist (ISO 8559-1), chest, armpit, shoulder point, back and front neck point, divided by

@@ -23,7 +23,6 @@ impl Bump {
     }
 }
 
-/// Section by which front and back are told: position and half of the depth, m.
 struct Depth {
     middle: f64,
     half: f64,
@@ -40,7 +39,6 @@ impl Depth {
     }
 }
 
-/// Bends of a figure.
 pub(crate) struct Bend {
     doses: ByTrait<f64>,
     seat: (Bump, Depth),
@@ -56,7 +54,7 @@ pub(crate) struct Bend {
 }
 
 impl Bend {
-    /// Bends of a figure. `None` for the standard body.
+    /// `None` for the standard body.
     pub fn of(figure: &Figure) -> Option<Self> {
         let doses = figure.doses;
         if doses.iter().all(|dose| *dose == 0.0) {

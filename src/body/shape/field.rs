@@ -20,8 +20,7 @@ const BETWEEN_LEGS: f64 = 0.008;
 const FOOT_JOINT: f64 = 0.045;
 const THUMB_JOINT: f64 = 0.030;
 
-/// Difference between the distances from trunk and limb up to which their joint is faired, m: more than the reach of
-/// the union.
+/// Difference of the distances from trunk and limb up to which the joint is faired, m: more than the union's reach.
 const ARM_SEAM: f64 = 0.040;
 const LEG_SEAM: f64 = 0.045;
 
@@ -43,7 +42,6 @@ pub(crate) struct Parts {
 }
 
 impl Parts {
-    /// Fields of the parts of a figure.
     pub fn new([trunk, arm, thumb, leg, foot]: [Part; 5], hand_start: f64) -> Self {
         let loft = |part| Loft::new(part, TABLE_STEP);
         Self { trunk: loft(trunk), arm: loft(arm), thumb: loft(thumb), hand_start, leg: loft(leg), foot: loft(foot) }

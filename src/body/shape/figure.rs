@@ -14,32 +14,27 @@ use geom::{V2, V3, smooth_step};
 /// Slope of the shoulder line, radians. Judgement.
 const SHOULDER_SLOPE: f64 = 20.0 * std::f64::consts::PI / 180.0;
 
-/// Shape of an elliptic section.
 pub(super) const ELLIPSE: Shape = [0.0; 9];
 
-/// One factor for each dimension.
 pub(crate) type Factors = [f64; COUNT];
 
-/// Person of a profile, laid out in space.
+/// Person of a profile, laid out in space. Lengths in metres.
 #[derive(Clone, Debug)]
 pub(crate) struct Figure<'a> {
     pub profile: &'a Profile,
     pub atlas: &'static Atlas,
-    /// Factors of the dimensions of the profile, indexed by [`Dimension`]. They are adjusted until the tape reads the
-    /// requested dimensions on the skin.
+    /// Factors by [`Dimension`], adjusted until the tape reads the requested dimensions on the skin.
     pub factors: Factors,
-    /// Strength of the bends of the skin and the moves of the shoulder by which the body departs from the standard body,
-    /// m. 0 for the standard body.
+    /// Strength of the bends of skin and moves of shoulder from the standard body, m. 0 for the standard body.
     pub doses: ByTrait<f64>,
 }
 
 impl<'a> Figure<'a> {
-    /// The figure before any fitting.
     pub fn new(profile: &'a Profile) -> Self {
         Self { profile, atlas: Atlas::of(profile.sex), factors: [1.0; COUNT], doses: [0.0; TRAITS] }
     }
 
-    /// Dimension times its factor, m.
+    /// Dimension times its factor.
     pub fn size(&self, dimension: Dimension) -> f64 {
         self.profile.at(dimension) * self.factors[dimension as usize]
     }
@@ -49,12 +44,11 @@ impl<'a> Figure<'a> {
         self.factors[dimension as usize] *= factor.clamp(0.85, 1.18);
     }
 
-    /// Half of the distance between the shoulder points, m.
+    /// Half of the distance between the shoulder points.
     pub fn shoulder_x(&self) -> f64 {
         self.size(Dimension::AcrossShoulder) / self.atlas.tape_over_biacromial / 2.0
     }
 
-    /// Height of the crotch, m.
     pub fn crotch(&self) -> f64 {
         self.size(Dimension::Inseam)
     }
@@ -69,7 +63,6 @@ impl<'a> Figure<'a> {
         self.trunk_heights()[6]
     }
 
-    /// Heights of knee and calf, m, by their shares of the leg.
     pub fn knee_and_calf(&self) -> [f64; 2] {
         [self.atlas.knee, self.atlas.calf].map(|share| share / self.atlas.crotch * self.crotch())
     }
@@ -102,12 +95,10 @@ impl<'a> Figure<'a> {
         [standing(core, None), self.arm(), self.thumb(), standing(leg, root), foot]
     }
 
-    /// Height of the back neck point, m.
     pub fn back_neck_height(&self) -> f64 {
         self.atlas.cervicale * self.stature()
     }
 
-    /// Height of the front neck point, m.
     pub fn front_neck_height(&self) -> f64 {
         self.atlas.suprasternale * self.stature()
     }
@@ -118,7 +109,6 @@ impl<'a> Figure<'a> {
         z_neck
     }
 
-    /// Height of the shoulder point, m.
     pub fn shoulder_height(&self) -> f64 {
         self.atlas.shoulder * self.stature() - self.doses[Trait::ShoulderSlope as usize]
     }
@@ -136,7 +126,6 @@ impl<'a> Figure<'a> {
         self.profile.at(Dimension::Stature)
     }
 
-    /// Heights of the nine trunk sections, m.
     fn trunk_heights(&self) -> [f64; 9] {
         let h = self.stature();
         let (crotch, hip) = (self.crotch(), self.hip());
@@ -155,10 +144,9 @@ impl<'a> Figure<'a> {
         ]
     }
 
-    /// Sections of the trunk. Hip, waist and chest have the requested girths. Between hip and waist, and above the
-    /// chest, girths depart from linear interpolation by the same factor as in the mean body. Between waist and chest
-    /// they lie at the same share of the difference as in the mean body, so that the ribs of a body without a waist do
-    /// not draw in below the chest.
+    /// Hip, waist and chest have the requested girths. Between hip and waist and above the chest, girths depart from
+    /// linear interpolation by the factor of the mean body. Between waist and chest they lie at the same share of the
+    /// difference as in the mean body, so that the ribs of a body without a waist do not draw in below the chest.
     pub fn trunk_sections(&self) -> Vec<Station> {
         let heights = self.trunk_heights();
         let mean = |i: usize| self.atlas.trunk[i].girth;
@@ -200,7 +188,6 @@ impl<'a> Figure<'a> {
         raw.with_girth(girth)
     }
 
-    /// Lower end of the trunk, between the thighs.
     fn perineum(&self, trunk: &[Station]) -> Vec<Station> {
         let at = self.crotch() + 0.010;
         let lowest = &trunk[0];
@@ -250,8 +237,7 @@ impl<'a> Figure<'a> {
         widths.into_iter().map(section).collect()
     }
 
-    /// Front and back of a section, displaced with the girth of the chest near the armpit, and with that of the neck
-    /// above.
+    /// Front and back of a section, displaced with the chest girth near the armpit and with the neck girth above.
     fn grown(&self, axilla: &Station, at: f64, front: f64, back: f64, neck: f64) -> (f64, f64) {
         let h = self.stature();
         let outline = self.neck_outline();
@@ -275,7 +261,6 @@ impl<'a> Figure<'a> {
         [1, 2].map(|side| Monotone::new(&heights, &rows.iter().map(|row| row[side]).collect::<Vec<_>>()))
     }
 
-    /// Girth of the neck divided by that of the mean neck.
     fn neck_factor(&self) -> f64 {
         self.size(Dimension::NeckGirth) / (self.atlas.neck_girth * self.stature())
     }

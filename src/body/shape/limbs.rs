@@ -26,7 +26,6 @@ pub(crate) const UPPER_ARM: f64 = 0.58;
 const ARMPIT_ABOVE_CHEST: f64 = 0.030;
 
 impl Figure<'_> {
-    /// Distance from the shoulder joint along the axis of the arm at which the hand begins, m.
     pub fn hand_start(&self) -> f64 {
         self.arm_lengths()[1]
     }
@@ -62,7 +61,6 @@ impl Figure<'_> {
         [V3::new(cos, 0.0, sin), V3::y(), V3::new(sin, 0.0, -cos)]
     }
 
-    /// Middle of the right upper arm.
     pub fn upper_arm(&self) -> AxisPoint {
         let along = self.arm_axes()[2];
         AxisPoint { place: self.shoulder_joint() + along * UPPER_ARM * self.arm_lengths()[0], along }
@@ -270,8 +268,7 @@ fn thigh_forward(hip: &Station, thigh: &Station, girth: f64, h: f64) -> f64 {
     usual.min(at_most.max(0.0))
 }
 
-/// Sideways position of the right thigh below the crotch: its outer side continues that of the hip, and the thighs do
-/// not touch.
+/// Sideways position of the right thigh below the crotch: continues the hip's outer side, and thighs do not touch.
 fn thigh_x(low: &Station, thigh: &Station) -> f64 {
     (0.97 * low.half_width - thigh.half_width).max(thigh.half_width + 0.008)
 }

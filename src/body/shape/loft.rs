@@ -45,7 +45,6 @@ pub(crate) struct Station {
     pub half_width: f64,
     /// Half of the extent along the second axis of the plane, m.
     pub half_depth: f64,
-    /// Cosine coefficients of the departure from the ellipse.
     pub shape: Shape,
 }
 
@@ -82,7 +81,6 @@ impl Station {
     }
 }
 
-/// Value of a field and direction of its gradient.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sample {
     /// Approximate signed distance from the surface, m, negative inside.
@@ -108,7 +106,6 @@ impl Part {
         self.root.map_or(1.0, |[none, all]| smooth_step(((at - none) / (all - none)).max(1e-3)))
     }
 
-    /// Tabulates sections at positions along the axis.
     fn rings(&self, places: impl Iterator<Item = f64>) -> Vec<Ring> {
         let curves = Curves::new(&self.stations);
         places.map(|place| Ring::new(&curves.at(place))).collect()
@@ -122,20 +119,17 @@ impl Part {
         self.rings(rings.iter().map(|ring| course.at(ring.at)))
     }
 
-    /// Point with the coordinates `local` in the section at the position `along`.
     pub fn lift(&self, local: V2, along: f64) -> V3 {
         let [u, v, w] = self.axes;
         self.origin + u * local.x + v * local.y + w * along
     }
 }
 
-/// A tabulated section.
+/// Tabulated section, in metres.
 #[derive(Clone, Debug)]
 pub(crate) struct Ring {
-    /// Position along the axis, m.
     pub at: f64,
     pub centre: V2,
-    /// Radius in each tabulated direction.
     pub radii: Vec<f64>,
 }
 
@@ -156,14 +150,12 @@ impl Ring {
 /// angle, in each tabulated direction.
 type Slopes = Vec<[f64; 2]>;
 
-/// Coordinates of a point in a part.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
     /// Position along the axis as a number of tabulated sections, clamped to the part.
     pub ring: f64,
     /// Distance along the axis past the ends of the part, m.
     pub past: f64,
-    /// Coordinates in the section.
     pub local: V2,
 }
 
@@ -171,13 +163,11 @@ pub(crate) struct Place {
 struct Radial {
     /// Distance from the outline along the ray from the centre, m.
     distance: f64,
-    /// Gradient in the plane of the section.
     gradient: V2,
     /// Slope of the outline along the axis.
     slope: f64,
 }
 
-/// Tabulated field of a body part.
 #[derive(Clone, Debug)]
 pub(crate) struct Loft {
     part: Part,
@@ -202,17 +192,14 @@ impl Loft {
         Self { part, start, step, rings, slopes, greatest_radius }
     }
 
-    /// Weight of the part at a point, above 0 and at most 1.
     pub fn own(&self, point: V3) -> f64 {
         self.part.own(self.along(point))
     }
 
-    /// The tabulated sections.
     pub fn rings(&self) -> &[Ring] {
         &self.rings
     }
 
-    /// Coordinates of a point in the part.
     pub fn locate(&self, point: V3) -> Place {
         let offset = point - self.part.origin;
         let [u, v, along] = self.part.axes;
@@ -226,9 +213,7 @@ impl Loft {
         (point - self.part.origin).dot(&self.part.axes[2])
     }
 
-    /// Field at a point.
-    ///
-    /// Farther away than `near`, where only the order of magnitude matters, the distance from a bounding cylinder.
+    /// Distance from a bounding cylinder farther away than `near`, where only the order of magnitude matters.
     pub fn sample(&self, point: V3, near: f64) -> Sample {
         let [u, v, along] = self.part.axes;
         let Place { ring: place, past, local } = self.locate(point);
@@ -254,7 +239,6 @@ impl Loft {
         Sample { distance, outward: (side * radial + end * beyond) / distance }
     }
 
-    /// Field in a section, apart from the ends of the part.
     fn radial(&self, local: V2, place: f64) -> Radial {
         let row = (place as usize).min(self.rings.len() - 2);
         let share = place - row as f64;
@@ -296,7 +280,6 @@ fn slopes(around: &[Ring], ring: &Ring) -> Slopes {
     (0..DIRECTIONS).map(slope).collect()
 }
 
-/// All numbers of a section, interpolated along the axis.
 struct Curves {
     numbers: [Monotone; 13],
 }
@@ -330,9 +313,8 @@ impl Curves {
     }
 }
 
-/// Sections that close a part with an elliptic dome of a `length` past `end`, in the direction of `sign`.
-///
-/// They are in the order of their distance from `end`. The last has almost no extent.
+/// Sections that close a part with an elliptic dome of a `length` past `end` in the direction of `sign`, in the order
+/// of their distance from `end`. The last has almost no extent.
 pub(super) fn dome(end: &Station, length: f64, sign: f64) -> Vec<Station> {
     let ring = |share: &f64| {
         let factor = (1.0 - share * share).sqrt().max(0.01);

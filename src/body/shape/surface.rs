@@ -19,7 +19,6 @@ const SPREADING_STEP: f64 = 0.3;
 /// Weight of the fairing of the whole skin. Judgement.
 const BASE_FAIRING: f64 = 0.4;
 
-/// A quadrilateral mesh of the skin, with the neighbours of its vertices.
 #[derive(Clone, Debug)]
 pub(crate) struct Skin {
     mesh: QuadMesh,
@@ -59,8 +58,7 @@ impl Skin {
         Self { mesh, neighbours }
     }
 
-    /// One pass of tangential smoothing: moves every vertex to the mean of its neighbours and projects it onto the
-    /// skin.
+    /// Moves every vertex to the mean of its neighbours and projects it onto the skin.
     fn even_out(&mut self, parts: &Parts) {
         let targets: Vec<V3> = (0..self.neighbours.len())
             .map(|i| self.mesh.positions[i] + self.to_mean(&self.mesh.positions, i))
@@ -68,8 +66,7 @@ impl Skin {
         self.mesh.positions = targets.into_iter().map(|target| parts.project(target)).collect();
     }
 
-    /// Fairs the skin as a thin plate: a little everywhere, to remove facets, and strongly where trunk and limbs meet,
-    /// to leave no crease.
+    /// Fairs the skin as a thin plate: a little everywhere against facets, strongly where limbs meet against creases.
     fn fair(&mut self, parts: &Parts) {
         let everywhere = vec![BASE_FAIRING; self.mesh.positions.len()];
         self.fair_weighted(&everywhere, BASE_PASSES);
@@ -101,13 +98,11 @@ impl Skin {
         }
     }
 
-    /// Vector from the value of a vertex to the mean of its neighbours (umbrella operator).
     fn to_mean(&self, values: &[V3], i: usize) -> V3 {
         let around = &self.neighbours[i];
         around.iter().map(|&j| values[j]).sum::<V3>() / around.len() as f64 - values[i]
     }
 
-    /// Unit normals of the vertices.
     fn normals(&self) -> Vec<V3> {
         let mut normals = vec![V3::zeros(); self.mesh.positions.len()];
         for &[a, b, c, d] in &self.mesh.quads {
@@ -128,7 +123,6 @@ impl Skin {
     }
 }
 
-/// Divides a quadrilateral along its shorter diagonal.
 fn split(&[a, b, c, d]: &[usize; 4], positions: &[V3]) -> [[usize; 3]; 2] {
     let length = |i: usize, j: usize| (positions[i] - positions[j]).norm();
     if length(a, c) <= length(b, d) { [[a, b, c], [a, c, d]] } else { [[b, c, d], [b, d, a]] }

@@ -29,7 +29,6 @@ fn study(draw: &mut Draw, garments: usize, subjects: usize, effect: f64, spread:
     (names.iter().map(cell).collect(), pairs)
 }
 
-/// Share of simulated studies in which any answer is one of `findings`.
 fn share(studies: usize, garments: usize, subjects: usize, effect: f64, spread: f64, findings: &[Finding]) -> f64 {
     let mut draw = Draw::new(8);
     let found = (0..studies).filter(|_| {

@@ -12,7 +12,6 @@ pub const DIRECTIONS: usize = 36;
 /// Number of directions over which the area of air is integrated: every half degree.
 const FINE: usize = 720;
 
-/// A plane that cuts a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Site {
     /// Level: `chest`, `underbust`, `waist`, `hip`, `thigh`, `knee`, `upper_arm`, or a height in words.
@@ -23,7 +22,6 @@ pub struct Site {
 
 impl Site {
     /// Horizontal plane at a height above the floor. Below the crotch its origin lies in the right leg.
-    #[must_use]
     pub fn at(level: &str, body: &Body, height_m: f64) -> Self {
         let is_leg = height_m < body.levels.crotch_m;
         let [high, low] = [body.skeleton.at(Joint::HipRight), body.skeleton.at(Joint::AnkleRight)];
@@ -36,20 +34,17 @@ impl Site {
     }
 
     /// True if the plane is horizontal.
-    #[must_use]
     pub fn is_level(&self) -> bool {
         self.plane.normal().z.abs() > 1.0 - 1e-9
     }
 
     /// Height above the floor of the origin of the plane, which lies on the axis of the trunk or limb, m.
-    #[must_use]
     pub fn height_m(&self) -> f64 {
         self.plane.origin.z
     }
 }
 
 /// Sections of a body, from the chest down, and across the right upper arm.
-#[must_use]
 pub fn sites(body: &Body) -> Vec<Site> {
     let levels = &body.levels;
     let heights = [
@@ -75,39 +70,30 @@ fn upper_arm(body: &Body) -> Option<Site> {
     Some(Site { level: "upper_arm".to_owned(), plane })
 }
 
-/// Air gap in one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Angle {
     /// Direction from the front towards the subject's right, degrees.
     pub deg: f64,
     /// Distance from the centroid of the outline to the skin, m.
     pub skin_m: f64,
-    /// Distance from the skin outwards to the first cloth, m, negative if the cloth lies inside the body. `None`
-    /// without cloth in this direction.
+    /// Distance from the skin outwards to the first cloth, negative inside the body. `None` without cloth there.
     pub gap_m: Option<f64>,
 }
 
-/// Section of body and cloth by a plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
-    /// Plane.
     pub site: Site,
-    /// Outline of the trunk or limb that is cut.
     pub skin: Outline,
-    /// Outlines of the other limbs that the plane cuts.
     pub others: Vec<Outline>,
-    /// Outlines of the cloth round the trunk or limb.
     pub cloth: Vec<Outline>,
     /// Centroid of the outline of the skin, in the plane.
     pub centre: V2,
 }
 
-/// A ray from the centroid of a section.
 #[derive(Clone, Copy, Default)]
 struct Ray {
     /// Distance at which the ray last leaves the skin, m.
     skin_m: f64,
-    /// Distance at which the ray first meets cloth, m. `None` if the ray meets no cloth.
     cloth_m: Option<f64>,
 }
 
@@ -116,7 +102,6 @@ impl Section {
     ///
     /// The trunk or limb is the outline round the origin of the plane, or else the nearest outline. Cloth belongs to
     /// this outline if it encloses its centroid, or lies nearer to this outline than to the others of the body.
-    #[must_use]
     pub fn cut(site: Site, body: &TriMesh, cloth: &TriMesh) -> Option<Self> {
         let mut outlines: Vec<Outline> =
             section(body, &site.plane).into_iter().filter(|outline| outline.closed).collect();
@@ -136,20 +121,15 @@ impl Section {
         Some(Self { site, skin, others: outlines, cloth, centre })
     }
 
-    /// Area of the trunk or limb, m2.
-    #[must_use]
     pub fn body_area_m2(&self) -> f64 {
         signed_area(&self.skin.points).abs()
     }
 
-    /// Length of the outlines of the cloth, m.
-    #[must_use]
     pub fn cloth_length_m(&self) -> f64 {
         self.cloth.iter().flat_map(segments).map(|(a, b)| (b - a).norm()).sum()
     }
 
     /// Air gap in `count` directions, from the front towards the subject's right.
-    #[must_use]
     pub fn gaps(&self, count: usize) -> Vec<Angle> {
         let angle = |k: usize| {
             let deg = k as f64 / count as f64 * 360.0;
@@ -160,7 +140,6 @@ impl Section {
     }
 
     /// Area between skin and first cloth, in the directions with cloth, m2. Cloth inside the body counts negative.
-    #[must_use]
     pub fn air_m2(&self) -> f64 {
         let rays = (0..FINE).filter_map(|k| self.ray((k as f64 + 0.5) / FINE as f64 * 360.0));
         let sectors = rays.filter_map(|ray| Some(0.5 * (ray.cloth_m?.powi(2) - ray.skin_m.powi(2))));
@@ -194,7 +173,6 @@ fn segments(outline: &Outline) -> impl Iterator<Item = (V2, V2)> {
     (0..count).map(|k| (points[k], points[(k + 1) % points.len()]))
 }
 
-/// Distances from `from` at which a ray along the unit vector `way` crosses an outline.
 fn crossings(from: V2, way: V2, outline: &Outline) -> impl Iterator<Item = f64> {
     segments(outline).filter_map(move |(a, b)| {
         let (a, b) = (a - from, b - from);
@@ -223,7 +201,6 @@ fn distance(point: V2, outline: &Outline) -> f64 {
     outline.points.iter().map(|p| (p - point).norm()).fold(f64::INFINITY, f64::min)
 }
 
-/// Mean distance of the vertices of an outline from another outline.
 fn mean_distance(outline: &Outline, other: &Outline) -> f64 {
     outline.points.iter().map(|p| distance(*p, other)).sum::<f64>() / outline.points.len().max(1) as f64
 }
@@ -233,7 +210,6 @@ mod tests {
     use super::*;
     use body::{Measurements, Sex};
 
-    /// A tube about the vertical through `x`, closed at both ends if `is_solid`.
     fn tube(x: f64, radius: impl Fn(f64) -> f64, around: usize, is_solid: bool) -> TriMesh {
         let mut mesh = TriMesh { positions: Vec::new(), triangles: Vec::new() };
         for z in [-0.1, 0.1] {

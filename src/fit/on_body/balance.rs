@@ -5,34 +5,27 @@ use geom::V3;
 /// Half angle of the sectors that count as front, back and sides, radians (15 degrees). Judgement.
 const HALF_SECTOR: f64 = std::f64::consts::PI / 12.0;
 
-/// Heights of a closed edge above the floor, m. `None` for a side without cloth, as at the opening of a coat.
+/// Heights of a closed edge above the floor. Right and left are the subject's. `None` for a side without cloth, as at
+/// the opening of a coat.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Sides {
-    /// At the front.
     pub front_m: Option<f64>,
-    /// At the back.
     pub back_m: Option<f64>,
-    /// On the subject's right.
     pub right_m: Option<f64>,
-    /// On the subject's left.
     pub left_m: Option<f64>,
 }
 
-/// Balance of a garment.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Hang {
     /// Lower edge. Of trousers, that of one leg.
     pub hem: Option<Sides>,
     /// Upper edge of trousers and skirts.
     pub waist: Option<Sides>,
-    /// Angles of right and left side seam from the vertical, radians, positive for a seam that runs forwards on its way
-    /// down.
+    /// Angles of right and left side seam from the vertical, positive if the lower end lies in front.
     pub lean_rad: [Option<f64>; 2],
 }
 
-/// Balance of a garment from the lines of its lower edge, upper edge and side seams on the body, each of one or several
-/// parts.
-#[must_use]
+/// Takes the lines of lower edge, upper edge and side seams on the body, each of one or several parts.
 pub fn hang(hem: &[Vec<V3>], waist: &[Vec<V3>], side_seams: &[Vec<V3>]) -> Hang {
     let is_right = |right: bool| {
         let own = side_seams.iter().filter(move |seam| (mean_x(seam) > 0.0) == right);
@@ -68,8 +61,7 @@ fn sides(edge: &[Vec<V3>]) -> Option<Sides> {
     Some(Sides { front_m, back_m, right_m, left_m })
 }
 
-/// Angle of a seam from the vertical, from its highest to its lowest point, radians, positive if the lower end lies in
-/// front of the upper.
+/// Angle of a seam, highest to lowest point, from the vertical, radians, positive if the lower end lies in front.
 fn lean(seam: &[V3]) -> Option<f64> {
     let high = seam.iter().max_by(|a, b| a.z.total_cmp(&b.z))?;
     let low = seam.iter().min_by(|a, b| a.z.total_cmp(&b.z))?;

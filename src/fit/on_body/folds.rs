@@ -9,8 +9,7 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 
 /// Radius of curvature below which cloth counts as folded, m: that of the narrowest limb that cloth lies on, the wrist.
 const SHARP_M: f64 = 0.026;
-/// Distance from the skin from which cloth counts as off the skin, m: well above the distance at which contact holds
-/// cloth.
+/// Distance from the skin from which cloth counts as off it, m: well above that at which contact holds cloth.
 const OFF_M: f64 = 0.005;
 /// Least length of a fold, m: a few mesh edges.
 const SHORTEST_M: f64 = 0.05;
@@ -19,18 +18,15 @@ const TOGETHER: f64 = 0.866;
 /// Tension along a fold from which the fold is a drag line, N/m: the weight of a metre of heavy cloth.
 const DRAGGED_N_M: f64 = 5.0;
 
-/// Cloth of a garment, with the fields at its vertices from which folds are found.
 #[derive(Clone, Copy, Debug)]
 pub struct Worn<'a> {
     /// Sewn cloth, counter-clockwise seen from outside.
     pub cloth: &'a TriMesh,
-    /// Distance from the skin, m.
     pub gap_m: &'a [f64],
-    /// Greater principal tension, N/m.
+    /// Greater principal tension.
     pub tension_n_m: &'a [f64],
 }
 
-/// A fold of the cloth.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Fold {
     /// True for a drag line, whose cloth is under tension. False for a fold that hangs free.
@@ -39,16 +35,13 @@ pub struct Fold {
     pub length_m: f64,
     /// Angle of that axis from the vertical, radians, 0 to pi / 2.
     pub from_vertical_rad: f64,
-    /// Mean position of the vertices, m.
     pub middle: V3,
     /// Radius of the mean curvature of the vertices, m.
     pub radius_m: f64,
-    /// Mean tension of the vertices, N/m.
     pub tension_n_m: f64,
 }
 
 /// Folds of a garment, the longest first.
-#[must_use]
 pub fn folds(worn: &Worn<'_>) -> Vec<Fold> {
     let crests = crests(worn.cloth);
     let is_crest = |v: usize| crests[v].curvature * SHARP_M >= 1.0 && worn.gap_m[v] >= OFF_M;
@@ -96,7 +89,6 @@ fn fold(worn: &Worn<'_>, crests: &[Crest], group: &[(usize, usize)]) -> Option<F
     })
 }
 
-/// Principal curvature of the cloth at a vertex.
 #[derive(Clone, Copy)]
 struct Crest {
     /// Greater principal curvature, 1/m, positive for cloth that bends outwards.

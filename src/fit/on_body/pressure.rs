@@ -5,13 +5,10 @@ use geom::{TriMesh, V3};
 
 /// Least pressure that counts, kPa: several times that of a heavy cloth by its weight.
 const PRESSING_KPA: f64 = 0.02;
-/// Share of the pressing area with more than the greatest pressure that is reported, so that single vertices do not
-/// decide it.
+/// Share of the pressing area above the greatest reported pressure, so that single vertices do not decide it.
 const SHARE: f64 = 0.01;
 
-/// A region of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[allow(missing_docs)]
 pub enum Region {
     Neck,
     Shoulders,
@@ -25,7 +22,6 @@ pub enum Region {
 }
 
 impl Region {
-    /// All regions, from the neck down, arms last.
     pub const ALL: [Self; 9] = [
         Self::Neck,
         Self::Shoulders,
@@ -39,7 +35,6 @@ impl Region {
     ];
 
     /// Name in tables and SQL.
-    #[must_use]
     pub const fn as_str(self) -> &'static str {
         match self {
             Self::Neck => "neck",
@@ -57,7 +52,6 @@ impl Region {
     /// Region of a point on or in front of the skin: that of the nearest bone, with distances divided by the radius of
     /// the limb. On trunk and legs the height decides, with limits at neck points, armpits, half-way heights between
     /// the levels, crotch and knee.
-    #[must_use]
     pub fn of(body: &Body, point: V3) -> Self {
         let position = |joint: Joint| body.skeleton.at(joint);
         let bone = |from: Joint, to: Joint, girth: Dimension| {
@@ -82,7 +76,6 @@ impl Region {
         }
     }
 
-    /// Region of trunk and legs at a height above the floor.
     fn of_height(body: &Body, z: f64) -> Self {
         let levels = &body.levels;
         let armpit_m = 0.5 * (body.landmarks.armpit[0].z + body.landmarks.armpit[1].z);
@@ -100,17 +93,14 @@ impl Region {
     }
 }
 
-/// Distance of a point from a segment, m.
 fn off_segment(point: V3, from: V3, to: V3) -> f64 {
     let way = to - from;
     let share = ((point - from).dot(&way) / way.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
     (point - from - way * share).norm()
 }
 
-/// Pressure on a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pressed {
-    /// Region.
     pub region: Region,
     /// Area of the cloth that presses, m2.
     pub area_m2: f64,
@@ -120,8 +110,7 @@ pub struct Pressed {
     pub most_kpa: f64,
 }
 
-/// Pressure by region, from the pressure at the vertices of the cloth, kPa. A region without pressure is left out.
-#[must_use]
+/// Leaves out regions without pressure.
 pub fn pressed(body: &Body, cloth: &TriMesh, pressure_kpa: &[f64]) -> Vec<Pressed> {
     let mut patches: Vec<Vec<Patch>> = vec![Vec::new(); Region::ALL.len()];
     for triangle in &cloth.triangles {
@@ -135,14 +124,12 @@ pub fn pressed(body: &Body, cloth: &TriMesh, pressure_kpa: &[f64]) -> Vec<Presse
     Region::ALL.into_iter().zip(patches).filter_map(|(region, patches)| summed(region, patches)).collect()
 }
 
-/// Triangle of pressing cloth.
 #[derive(Clone, Copy)]
 struct Patch {
     kpa: f64,
     area_m2: f64,
 }
 
-/// Pressure on a region from the triangles that press on it. `None` without triangles.
 fn summed(region: Region, mut patches: Vec<Patch>) -> Option<Pressed> {
     let area_m2: f64 = patches.iter().map(|patch| patch.area_m2).sum();
     if area_m2 == 0.0 {

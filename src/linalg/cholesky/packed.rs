@@ -15,7 +15,7 @@ pub struct Packed {
 }
 
 impl Packed {
-    /// Packs a block, rounded to single precision.
+    /// Rounds to single precision.
     pub fn new(block: &Dense) -> Self {
         let entry = |c: usize, r: usize| block[c][r] as f32;
         let head = |c: usize| f32x4::from([entry(c, 0), entry(c, 1), entry(c, 2), entry(c, 3)]);
@@ -24,7 +24,7 @@ impl Packed {
     }
 }
 
-/// Values in the layout of a packed block: factors for its entries, or sums of products with its entries.
+/// Values in the layout of a packed block: factors for its entries, or sums of products with them.
 #[derive(Clone, Copy)]
 pub struct Entries<T> {
     heads: [T; 3],
@@ -39,33 +39,28 @@ pub struct Parts<T> {
     tail: T,
 }
 
-/// Arithmetic with blocks in vector registers.
 #[derive(Clone, Copy)]
 pub struct Blockwise<S>(pub S);
 
 impl<S: Simd> Blockwise<S> {
-    /// Zeros to accumulate in.
     #[inline(always)]
     pub fn nothing(self) -> Entries<S::F32x8> {
         let zero = self.0.join([f32x4::ZERO; 2]);
         Entries { heads: [zero; 3], tails: [zero; 2] }
     }
 
-    /// Row in the first partial sums. The other partial sums are zero.
     #[inline(always)]
     pub fn parts(self, [a, b, c, d, e, f]: Row) -> Parts<S::F32x8> {
         let (head, tail) = (f32x4::from([a, b, c, d]), f32x4::from([e, f, 0.0, 0.0]));
         Parts { head: self.0.join([head, f32x4::ZERO]), tail: self.0.join([tail, f32x4::ZERO]) }
     }
 
-    /// A row repeated in every partial sum.
     #[inline(always)]
     pub fn repeated(self, [a, b, c, d, e, f]: Row) -> Parts<S::F32x8> {
         let (head, tail) = (f32x4::from([a, b, c, d]), f32x4::from([e, f, e, f]));
         Parts { head: self.0.join([head; 2]), tail: self.0.join([tail; 2]) }
     }
 
-    /// Row of the totals of the partial sums.
     #[inline(always)]
     pub fn row(self, parts: &Parts<S::F32x8>) -> Row {
         let ([a, b], [c, d]) = (self.0.split(parts.head), self.0.split(parts.tail));
@@ -73,7 +68,7 @@ impl<S: Simd> Blockwise<S> {
         [head[0], head[1], head[2], head[3], tail[0] + tail[2], tail[1] + tail[3]]
     }
 
-    /// Row of the first partial sums, for a row that is repeated in all.
+    /// First partial sums, for a row that is repeated in all.
     #[inline(always)]
     pub fn first(self, parts: &Parts<S::F32x8>) -> Row {
         let ([a, b, c, d], [e, f, ..]) =
@@ -81,7 +76,6 @@ impl<S: Simd> Blockwise<S> {
         [a, b, c, d, e, f]
     }
 
-    /// Entries of a row, as factors of the columns of a block.
     #[inline(always)]
     pub fn factors(self, y: Row) -> Entries<S::F32x8> {
         let tails = each!(k of 3 => f32x4::from([y[2 * k], y[2 * k], y[2 * k + 1], y[2 * k + 1]]));
@@ -91,7 +85,6 @@ impl<S: Simd> Blockwise<S> {
         }
     }
 
-    /// Adds the product of a block and a row, given as `factors`, to `parts`.
     #[inline(always)]
     pub fn add_times(self, parts: &mut Parts<S::F32x8>, block: &Packed, factors: &Entries<S::F32x8>) {
         for (head, factor) in block.heads.iter().zip(&factors.heads) {
@@ -102,8 +95,7 @@ impl<S: Simd> Blockwise<S> {
         }
     }
 
-    /// Adds the products of the columns of a block with a repeated row. Their totals are the transposed block times the
-    /// row.
+    /// Adds the products of a block's columns with a repeated row. Their totals are the transposed block times the row.
     #[inline(always)]
     pub fn add_products(self, sums: &mut Entries<S::F32x8>, block: &Packed, row: &Parts<S::F32x8>) {
         for (sum, head) in sums.heads.iter_mut().zip(&block.heads) {
@@ -114,7 +106,6 @@ impl<S: Simd> Blockwise<S> {
         }
     }
 
-    /// Sum of each column.
     #[inline(always)]
     pub fn totals(self, sums: &Entries<S::F32x8>) -> Row {
         let heads = each!(k of 3 => self.0.split(sums.heads[k]));

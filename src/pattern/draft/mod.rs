@@ -38,7 +38,6 @@ impl Draft {
     /// Writes the draft as AAMA DXF in millimetres: boundary, turn and curve points, notches and grain of each piece.
     ///
     /// The bytes depend on the draft only: no date is written.
-    #[must_use]
     pub fn dxf(&self) -> Vec<u8> {
         let texts = [("Author", "Toile"), ("Style Name", &self.style), ("Sample Size", &self.size)];
         let texts = texts.map(|(key, value)| (key.to_owned(), value.to_owned()));
@@ -64,7 +63,6 @@ impl Model {
     pub const ALL: [Self; 4] = [Self::Tshirt, Self::Trousers, Self::Teetop, Self::Dress];
 
     /// Name, the prefix of its files.
-    #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Tshirt => "tshirt",
@@ -75,7 +73,6 @@ impl Model {
     }
 
     /// Seam file, for all sizes.
-    #[must_use]
     pub fn seams(self) -> &'static [u8] {
         match self {
             Self::Tshirt => TSHIRT_SEAMS,
@@ -86,7 +83,6 @@ impl Model {
     }
 
     /// Sizes, smallest first, with their published pattern lengths `#1`, `#2` ..., mm.
-    #[must_use]
     pub fn published_mm(self) -> Vec<(&'static str, Vec<f64>)> {
         match self {
             Self::Tshirt => TshirtSize::ALL.map(|size| (size.as_str(), size.published_mm().to_vec())).to_vec(),
@@ -97,7 +93,6 @@ impl Model {
     }
 
     /// Drafts all sizes, smallest first.
-    #[must_use]
     pub fn drafts(self) -> Vec<Draft> {
         match self {
             Self::Tshirt => TshirtSize::ALL.map(tshirt).to_vec(),
@@ -108,7 +103,6 @@ impl Model {
     }
 
     /// Files by name: one DXF per size, and the seam file.
-    #[must_use]
     pub fn files(self) -> Vec<(String, Vec<u8>)> {
         let drawing = |draft: &Draft| {
             let name = format!("{}-{}.dxf", self.as_str(), draft.size.to_lowercase());

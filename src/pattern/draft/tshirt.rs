@@ -31,7 +31,6 @@ impl TshirtSize {
     pub const ALL: [Self; 3] = [Self::S, Self::M, Self::L];
 
     /// Letter of the size, as in files and tables.
-    #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Self::S => "S",
@@ -41,7 +40,6 @@ impl TshirtSize {
     }
 
     /// Published lengths `#1` to `#9`, mm [T tables 6-5, 6-8, 6-11].
-    #[must_use]
     pub fn published_mm(self) -> [f64; 9] {
         match self {
             Self::S => [974.10, 356.53, 550.76, 704.96, 503.71, 560.09, 458.95, 156.67, 119.18],
@@ -53,7 +51,6 @@ impl TshirtSize {
 
 /// Drafts the blocks `FRONT`, `BACK` and `SLEEVE` of the men's T-shirt. The sleeve is the right one, and the left is
 /// its mirror image.
-#[must_use]
 pub fn tshirt(size: TshirtSize) -> Draft {
     let lengths = size.published_mm().map(from_mm);
     let trunk = trunk(&lengths);

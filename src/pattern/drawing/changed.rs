@@ -43,7 +43,6 @@ struct Way {
 /// dashed. An arrow shows how far each edge has moved across itself where it has moved most to that side, unless that is
 /// less than a millimetre.
 /// Below stand the handles, and the measurements that change.
-#[must_use]
 pub fn changed_svg(before: &Style, after: &Style, moves: &[(Handle, f64)]) -> String {
     let (places, now) = (arrange(after), arranged(after));
     let laid = |(piece, place): (&StylePiece, &Placed)| -> Vec<Polyline> {

@@ -47,7 +47,6 @@ text{font-family:'DejaVu Sans',sans-serif;fill:#3a3a3a}\
 .note{font-size:15px}";
 
 /// Draws all pieces of a style about the head (see [`arrange`](super::arrange)), with a legend of the measurements below.
-#[must_use]
 pub fn svg(style: &Style) -> String {
     drawn(&arranged(style))
 }
@@ -76,7 +75,6 @@ fn drawn(style: &Style) -> String {
 
 /// Draws as [`svg`] does, with all pieces head up, and the points of measure numbered in place of the measurements of the
 /// style.
-#[must_use]
 pub fn points_svg(style: &Style) -> String {
     let points = style.points_of_measure().into_iter().zip(1..);
     let measurement = |(measure, no): (PointOfMeasure, u32)| StyleMeasurement {

@@ -296,9 +296,6 @@ impl Drawn {
     }
 
     /// Makes the piece of the block, and adds remarks for the user to `remarks`.
-    ///
-    /// # Errors
-    /// The reason why the block is no usable piece, with the place in millimetres.
     pub fn into_piece(mut self, block: &str, remarks: &mut Vec<String>) -> Result<Piece, String> {
         if let Some(reason) = std::mem::take(&mut self.unreadable).into_iter().next() {
             return Err(reason);

@@ -18,7 +18,6 @@ const PREFIXES: [&str; 8] = ["ANSI", "WINDOWS", "WIN", "CP", "DOS", "OEM", "IBM"
 
 impl CodePage {
     /// Finds a code page by name: `ANSI_1252`, `iso8859-1`, `8859_1`, `dos850`, `gb2312`, `utf8`, ...
-    #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         let web = |label: &str| Encoding::for_label(label.as_bytes()).map(Self::Web);
         let plain: String = name.to_ascii_uppercase().chars().filter(char::is_ascii_alphanumeric).collect();
@@ -48,7 +47,6 @@ impl CodePage {
     }
 
     /// Decodes bytes of the file.
-    #[must_use]
     pub fn decoded(self, bytes: &[u8]) -> String {
         match self {
             Self::Web(encoding) => encoding.decode_without_bom_handling(bytes).0.into_owned(),
@@ -60,7 +58,6 @@ impl CodePage {
     }
 
     /// Encodes a decoded text into the bytes of the file.
-    #[must_use]
     pub fn encoded(self, text: &str) -> Vec<u8> {
         match self {
             Self::Web(encoding) => encoding.encode(text).0.into_owned(),
@@ -72,7 +69,6 @@ impl CodePage {
     }
 
     /// True for UTF-8.
-    #[must_use]
     pub fn is_utf8(self) -> bool {
         self == Self::Web(encoding_rs::UTF_8)
     }

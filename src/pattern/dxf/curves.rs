@@ -95,9 +95,6 @@ pub struct Spline {
 
 impl Spline {
     /// Makes a spline of the given degree.
-    ///
-    /// # Errors
-    /// A message if knots, weights and control points do not match.
     pub fn new(degree: i32, knots: &[f64], control: &[V2], weights: &[f64]) -> Result<Self, String> {
         let of_degree = usize::try_from(degree).ok().filter(|degree| (1..=MOST_DEGREE).contains(degree));
         let Some(degree) = of_degree else {

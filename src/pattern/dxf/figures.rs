@@ -46,9 +46,6 @@ impl Placement {
 
     /// Placement of an entity with this normal. An entity whose normal points down is seen from behind, with its x axis
     /// reversed [DXF reference, OCS].
-    ///
-    /// # Errors
-    /// A message if the normal is tilted.
     fn seen_along(&self, normal: &Vector) -> Result<Self, String> {
         let tilt = normal.x.abs().max(normal.y.abs());
         if tilt > 1e-6 * normal.z.abs() {
@@ -58,9 +55,6 @@ impl Placement {
     }
 
     /// Placement of a block that is inserted into a drawing with this placement. `base` is the base point of the block.
-    ///
-    /// # Errors
-    /// A message if the insertion is an array or tilted.
     pub fn of_insert(&self, insert: &Insert, base: &Point) -> Result<Self, String> {
         if insert.column_count > 1 || insert.row_count > 1 {
             return Err(format!(
@@ -129,9 +123,6 @@ pub enum Figure {
 const FARTHEST_M: f64 = 1_000.0;
 
 /// Geometry of an entity at a placement.
-///
-/// # Errors
-/// A message on what cannot be read, and what is accepted.
 pub fn figure(entity: &Entity, placement: &Placement) -> Result<Figure, String> {
     let figure = figure_anywhere(entity, placement)?;
     let places: &[V2] = match &figure {

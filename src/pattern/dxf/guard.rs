@@ -132,10 +132,6 @@ pub struct Inventory<'a> {
 }
 
 /// Takes the inventory of the tags of a file.
-///
-/// # Errors
-/// [`DxfError`] if sections or blocks do not nest, a number does not parse, a coordinate is missing, or a group code is
-/// undefined (other than 240-269, which are skipped).
 pub fn take_inventory<'a>(tags: &[Tag<'a>], file: &str) -> Result<Inventory<'a>, DxfError> {
     let mut walk = Walk { file, section: None, block: None, inventory: Inventory::default() };
     // A record is a tag of group code 0 and the tags up to the next one.

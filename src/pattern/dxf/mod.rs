@@ -119,7 +119,6 @@ pub struct PatternFile {
 impl PatternFile {
     /// Name of a block byte for byte as in the file, each byte as the character of that number (Latin-1). In a UTF-8
     /// file it is the name itself. It names the block whatever the code page of a reader.
-    #[must_use]
     pub fn as_written(&self, block: &str) -> String {
         if block == NO_BLOCK || self.encoding.is_utf8() {
             return block.to_owned();
@@ -135,7 +134,6 @@ impl PatternFile {
 
     /// Sizes from the smallest to the largest. Sizes whose names have no order stay in the order of the file. Pieces
     /// without a size count as size `""`.
-    #[must_use]
     pub fn sizes(&self) -> Vec<&str> {
         let mut sizes = Vec::new();
         for piece in &self.pieces {
@@ -149,7 +147,6 @@ impl PatternFile {
     }
 
     /// Sample size: the one that the file names, otherwise the middle one.
-    #[must_use]
     pub fn sample_size(&self) -> &str {
         let sizes = self.sizes();
         let said = self.texts.iter().filter(|(key, _)| is_sample_size(key)).map(|(_, value)| value.as_str());
@@ -159,10 +156,6 @@ impl PatternFile {
 
     /// Pieces of one size, half pieces unfolded, ready for a seam file. Without `size` the file must hold only one
     /// size. Upper and lower case count as equal.
-    ///
-    /// # Errors
-    /// [`DxfError`] if no unit is known, the size is missing or ambiguous, or a block of this size was refused: a
-    /// garment without one of its pieces would be another garment.
     pub fn to_sew(&self, size: Option<&str>) -> Result<Vec<Piece>, DxfError> {
         let doubt = self.doubt();
         if self.unit_source == UnitSource::Assumed {
@@ -255,7 +248,6 @@ fn join_sizes(pieces: &mut [Piece], sizes: &[Vec<Piece>]) {
 }
 
 /// True for the key of a text that names the sample size.
-#[must_use]
 pub fn is_sample_size(key: &str) -> bool {
     plain(key) == "samplesize"
 }

@@ -8,13 +8,11 @@ const WITH_VALUE: &str = "fFcCHWQTAp";
 const TOGGLES: &str = "LlOoKk";
 
 /// Lines of an entity.
-#[must_use]
 pub fn lines_of(text: &MText) -> Vec<String> {
     lines(&(text.extended_text.concat() + &text.text))
 }
 
 /// Lines of the content of an MTEXT. A TEXT without a backslash or brace is a line as it is.
-#[must_use]
 pub fn lines(content: &str) -> Vec<String> {
     let mut lines = vec![String::new()];
     let mut rest = content.chars();

@@ -169,9 +169,6 @@ pub fn chains(lines: &[Line]) -> Vec<Line> {
 }
 
 /// Joins lines into one closed polygon, the first vertex not repeated.
-///
-/// # Errors
-/// A message if there is no closed polygon, or more than one.
 pub fn joined(lines: &[Line], what: &str) -> Result<Vec<V2>, String> {
     let mut chains = chains(lines).into_iter();
     let Some(first) = chains.next() else {
@@ -185,9 +182,6 @@ pub fn joined(lines: &[Line], what: &str) -> Result<Vec<V2>, String> {
 }
 
 /// Polygon of a chain, the first vertex not repeated.
-///
-/// # Errors
-/// A message if the chain is open, or has fewer than 3 or more than [`MOST_VERTICES`] vertices.
 pub fn closed(chain: Line, what: &str) -> Result<Vec<V2>, String> {
     let [start, end] = chain.ends();
     let gap = chain.gap();
@@ -211,9 +205,6 @@ pub fn closed(chain: Line, what: &str) -> Result<Vec<V2>, String> {
 }
 
 /// Refuses an outline that crosses itself.
-///
-/// # Errors
-/// A message with the place.
 pub fn check_simple(outline: &[V2], what: &str) -> Result<(), String> {
     match self_crossing(outline) {
         Some(place) => Err(format!("the {what} crosses itself at {}", text_mm(&place))),
@@ -223,9 +214,6 @@ pub fn check_simple(outline: &[V2], what: &str) -> Result<(), String> {
 
 /// Removes the loops of a line that crosses itself, and returns their places. A cut line at a constant distance from
 /// the sew line has loops at inner corners and pocket mouths.
-///
-/// # Errors
-/// A message with the place of a crossing, if the loops enclose more than `trifle_m2`.
 pub fn cut_loops(outline: &mut Vec<V2>, what: &str, trifle_m2: f64) -> Result<Vec<V2>, String> {
     let (mut places, mut cut) = (Vec::new(), 0.0);
     while let Some(([first, second], at)) = crossing_sides(outline) {

@@ -12,9 +12,6 @@ const ON_OUTLINE_M: f64 = 0.1e-3;
 
 /// Sew line of a piece: on layer 14, or in files of old Valentina a closed line on layer 8 that encloses most of the
 /// piece.
-///
-/// # Errors
-/// A message if layer 14 does not hold one closed line.
 pub fn sew_line(on_14: Vec<Line>, internal: &mut Vec<Line>, outline: &[V2]) -> Result<Option<Vec<V2>>, String> {
     let mut line = if on_14.is_empty() {
         let is_sew_line = |line: &Line| {
@@ -34,9 +31,6 @@ pub fn sew_line(on_14: Vec<Line>, internal: &mut Vec<Line>, outline: &[V2]) -> R
 
 /// Closes chains that end on the outline, by following the outline from one chain to the next. Sew lines are drawn like
 /// this for a half piece (up to the fold) and for a piece with an edge without allowance.
-///
-/// # Errors
-/// As of [`joined`], if an end is not on the outline.
 fn closed_on(lines: &[Line], outline: &[V2], what: &str) -> Result<Vec<V2>, String> {
     let chains = chains(lines);
     let along = Along::new(outline);

@@ -60,9 +60,6 @@ pub fn value_type(code: i32) -> ValueType {
 }
 
 /// Reads the tags up to and including `0/EOF`.
-///
-/// # Errors
-/// [`DxfError`] for an empty, binary or truncated file, and for a group code that is no integer.
 pub fn scan<'a>(bytes: &'a [u8], file: &str) -> Result<Vec<Tag<'a>>, DxfError> {
     let fail = |line: Option<usize>, found: String, accepted: &str| Err(DxfError::new(file, line, found, accepted));
     if bytes.trim_ascii().is_empty() {

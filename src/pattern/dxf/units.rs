@@ -26,7 +26,6 @@ impl Unit {
     pub const ALL: [Self; 4] = [Self::Mm, Self::Cm, Self::In, Self::M];
 
     /// Millimetres in one unit.
-    #[must_use]
     pub fn mm_per_unit(self) -> f64 {
         match self {
             Self::Mm => 1.0,
@@ -37,7 +36,6 @@ impl Unit {
     }
 
     /// Symbol, as `--unit` takes it.
-    #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Mm => "mm",
@@ -72,9 +70,6 @@ pub struct Claim {
 
 /// Units that a file names, the one that counts first. A `Units:` text [AAMA-292] precedes `$INSUNITS`, which precedes
 /// `$MEASUREMENT`.
-///
-/// # Errors
-/// [`DxfError`] for an unknown unit.
 pub fn claims(inventory: &Inventory<'_>, file: &str) -> Result<Vec<Claim>, DxfError> {
     let mut claims = Vec::new();
     let texts = inventory.texts.iter().flat_map(|&Located { bytes, line }| {
@@ -167,9 +162,6 @@ pub struct Encoding {
 
 /// Encoding of the texts: UTF-8 from AutoCAD 2007 on, or if all texts are valid UTF-8, whatever the header says.
 /// Otherwise `$DWGCODEPAGE`. A file without one is read in the page in which most of its words are words of the trade.
-///
-/// # Errors
-/// [`DxfError`] for an unknown code page, if a text is not ASCII.
 pub fn code_page(inventory: &Inventory<'_>, file: &str) -> Result<Encoding, DxfError> {
     let said = |page| Ok(Encoding { page, remark: None });
     let version = inventory.header.get("$ACADVER").map_or("", |entry| entry.value);

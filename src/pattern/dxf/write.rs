@@ -30,7 +30,6 @@ pub enum Standard {
 ///
 /// A file with ASCII texts is plain R12. Otherwise it names the first code page that has all letters of the texts. If
 /// none has, it is UTF-8 in the version of AutoCAD 2007.
-#[must_use]
 pub fn write_pieces(pieces: &[Piece], style: &[(String, String)], standard: Standard) -> Vec<u8> {
     let body = body(pieces, style, standard);
     let encoded = CODE_PAGES.iter().find_map(|(page, encoding)| {

@@ -146,7 +146,6 @@ struct ReferenceLines {
 
 impl Features {
     /// Features of the pieces of a pattern, with its source and the texts of its style.
-    #[must_use]
     pub fn of(pieces: &[Piece], source: &str, style: &[(String, String)]) -> Self {
         Self {
             format: FORMAT.to_owned(),
@@ -307,7 +306,6 @@ fn edges(outline: &[V2], corners: &[usize]) -> Vec<EdgeFeature> {
 }
 
 /// True if JSON declares this format.
-#[must_use]
 pub fn is_features(json: &[u8]) -> bool {
     #[derive(Deserialize)]
     struct Head {
@@ -317,10 +315,6 @@ pub fn is_features(json: &[u8]) -> bool {
 }
 
 /// Reads features of pieces as a pattern. `file` is its name for messages.
-///
-/// # Errors
-/// [`FeaturesError`] if the JSON is of another format, version or unit, or the outline of a piece is missing, encloses
-/// no area or crosses itself.
 pub fn read(bytes: &[u8], file: &str) -> Result<PatternFile, FeaturesError> {
     let fail = |place: &str, found: String, accepted: &str| FeaturesError {
         file: file.to_owned(),

@@ -36,7 +36,6 @@ struct Part {
 ///
 /// Piece identifiers become panel names. Names of edges, corners, notches, grain and measurements are lost: the format
 /// cannot hold them.
-#[must_use]
 pub fn document(style: &Style) -> Document {
     let style = &style.as_cut();
     let mut parts: Vec<Part> = Vec::new();

@@ -77,10 +77,6 @@ pub struct Stitch {
 }
 
 /// Reads a specification. `file` is its name for messages.
-///
-/// # Errors
-/// [`GarmentCodeError`] if the bytes are no such JSON, an edge or stitch refers to something missing, a loop is open, a
-/// curve is impossible, an outline crosses itself, or an edge is sewn twice.
 pub fn read(bytes: &[u8], file: &str) -> Result<Specification, GarmentCodeError> {
     let reader = Reader { file };
     let document: Document = serde_json::from_slice(unmarked(bytes)).map_err(|error| {
@@ -306,7 +302,6 @@ fn piece(name: &str, edges: &[Polyline], is_clockwise_in_file: bool) -> Piece {
 
 impl Specification {
     /// Style of the panels, sewn by the stitches, without measurements.
-    #[must_use]
     pub fn style(&self) -> Style {
         let edge = |(k, line): (usize, &Polyline)| Edge {
             name: Some(format!("e{k}")),

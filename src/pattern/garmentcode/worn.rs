@@ -35,7 +35,6 @@ pub enum Part {
 
 impl Part {
     /// The part of a label; `None` for any other.
-    #[must_use]
     pub fn of_label(label: &str) -> Option<Self> {
         match label {
             "body" => Some(Self::Trunk),
@@ -86,7 +85,6 @@ impl Place {
 }
 
 /// Statements about the panels: by name where the name says the kind, else by place.
-#[must_use]
 pub fn told(specification: &Specification, named: &[Named]) -> Vec<Named> {
     let worn = Worn::new(specification, named);
     (0..named.len()).map(|panel| worn.told(panel)).collect()

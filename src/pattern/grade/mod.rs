@@ -30,9 +30,6 @@ const HORIZONTAL: f64 = 0.02;
 /// Grades the pieces into all sizes of a table. Those of the sample size stay as drawn.
 ///
 /// A piece that cannot be graded is listed in [`PatternFile::refused`].
-///
-/// # Errors
-/// [`GradeError`] if the file holds pieces of another size than the sample size, or no piece has a grade point.
 pub fn grade(file: &PatternFile, table: &GradeTable) -> Result<PatternFile, GradeError> {
     let fail = |found: String, accepted: &str| {
         Err(GradeError { file: file.file.clone(), line: None, found, accepted: accepted.to_owned() })
@@ -133,8 +130,6 @@ struct Field<'a> {
 }
 
 impl<'a> Field<'a> {
-    /// # Errors
-    /// A message if a rule is missing, two rules meet in one point, or fewer than two points are graded.
     fn of(piece: &'a Piece, table: &GradeTable, size: usize) -> Result<Self, String> {
         let outline = &piece.outline;
         let mut graded: Vec<Option<(u32, V2)>> = vec![None; outline.len()];

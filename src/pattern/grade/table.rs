@@ -111,13 +111,11 @@ pub fn read(bytes: &[u8], file: &str) -> Result<GradeTable, GradeError> {
 }
 
 /// Text by which a pattern file names its table, as `(key, value)`.
-#[must_use]
 pub fn named_in_pattern(name: &str) -> (String, String) {
     ("Grade Rule Table".to_owned(), name.to_owned())
 }
 
 /// True for the key of a text that names the grade rule table.
-#[must_use]
 pub fn is_name_of_table(key: &str) -> bool {
     key.eq_ignore_ascii_case("grade rule table")
 }
@@ -135,7 +133,6 @@ const IMPRINT: [&str; 5] = ["Author", "Product", "Version", "Creation Date", "Cr
 impl Imprint {
     /// Imprint of what Toile makes of a pattern file with some texts: its own name and version, and the date and time of
     /// the pattern. The clock is not asked, so that the same pattern makes the same bytes.
-    #[must_use]
     pub fn of(pattern: &[(String, String)]) -> Self {
         let text = |key: &&str| match *key {
             "Author" | "Product" => Some("Toile".to_owned()),
@@ -156,7 +153,6 @@ impl Imprint {
 }
 
 /// Writes a table in millimetres by a standard. `name` is the name by which the pattern file refers to the table.
-#[must_use]
 pub fn write(table: &GradeTable, name: &str, imprint: &Imprint, standard: Standard) -> String {
     let first = match standard {
         Standard::Aama => "ANSI/AAMA VERSION: 1.0.0",

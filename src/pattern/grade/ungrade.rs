@@ -31,9 +31,6 @@ pub struct Ungraded {
 }
 
 /// Converts a nest into its sample size with grade points and a grade rule table.
-///
-/// # Errors
-/// [`GradeError`] if the file has no such size, or a piece is missing or different in one size.
 pub fn ungrade(file: &PatternFile, sample: &str) -> Result<Ungraded, GradeError> {
     let fail = |found: String, accepted: &str| GradeError {
         file: file.file.clone(),

@@ -15,9 +15,6 @@ const MOST_STEP_M: f64 = 0.1;
 
 /// Converts the table into the unit `given`. Without it, the unit is that of the table, or that of the pattern
 /// (`drawn`) if the unit of the table would make no plausible grade. Also returns a note for the user.
-///
-/// # Errors
-/// [`GradeError`] if displacements are too long in the resulting unit.
 pub fn in_unit_of(
     table: GradeTable,
     drawn: Unit,

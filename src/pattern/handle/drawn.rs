@@ -37,10 +37,6 @@ pub struct Redrawn<'a> {
 
 impl<'a> Redrawn<'a> {
     /// Applies handles with their amounts, m, to pieces as drawn. `file` is the name of the seam file for messages.
-    ///
-    /// # Errors
-    /// [`HandleError`] if pieces and seam file make no style, a handle cannot be applied, or a block that is worn twice
-    /// would have to change in two ways.
     pub fn of(
         pieces: &'a [Piece],
         seam_bytes: &[u8],
@@ -75,14 +71,12 @@ impl<'a> Redrawn<'a> {
 
     /// Place of a point of a piece after the change. `piece` is the index of the piece. Half of a piece that is folded
     /// changes as its other half does, so that it still lies at the fold.
-    #[must_use]
     pub fn carried(&self, piece: usize, p: V2) -> V2 {
         self.carriers.get(&piece).map_or(p, |by| by.carried(p))
     }
 
     /// Changed pieces, in the order of the file. Their outlines have as many vertices as follow the change within a
     /// hundredth of a millimetre.
-    #[must_use]
     pub fn pieces(&self) -> Vec<Piece> {
         let piece = |(number, piece): (usize, &Piece)| {
             self.carriers.get(&number).map_or_else(|| piece.clone(), |by| by.piece(piece))
@@ -93,9 +87,6 @@ impl<'a> Redrawn<'a> {
     /// Bytes of a seam file that makes the changed style of changed pieces, given in the order of the pieces before.
     /// Only `corners_at`, the positions of corners on their pieces, change. Corners that are found on another size of a
     /// nest stay.
-    ///
-    /// # Errors
-    /// [`HandleError`] if the bytes are no seam file.
     pub fn seams(&self, changed: &[Piece], seam_bytes: &[u8], file: &str) -> Result<Vec<u8>, HandleError> {
         let (entries, mut corners) = (&self.entries, BTreeMap::new());
         let made_on = entries.size.as_deref();
@@ -122,7 +113,6 @@ impl<'a> Redrawn<'a> {
 
 /// Greatest distance between the edges of two styles with the same edges, m, each piece laid on the other by its corners.
 /// Infinite if they have not the same edges.
-#[must_use]
 pub fn outlines_apart_m(style: &Style, other: &Style) -> f64 {
     let has_same = |(piece, other): (&StylePiece, &StylePiece)| piece.edges.len() == other.edges.len();
     if style.pieces.len() != other.pieces.len() || !style.pieces.iter().zip(&other.pieces).all(has_same) {

@@ -76,7 +76,6 @@ pub enum HandleError {
 
 impl HandleError {
     /// Handle that cannot be applied. `None` for an error about the block or the style.
-    #[must_use]
     pub const fn handle(&self) -> Option<Handle> {
         match self {
             Self::Amount { handle, .. }

@@ -224,32 +224,27 @@ impl Handle {
     }
 
     /// Name in tables and files.
-    #[must_use]
     pub const fn as_str(self) -> &'static str {
         self.entry().name
     }
 
     /// Definition of a positive amount.
-    #[must_use]
     pub const fn definition(self) -> &'static str {
         self.entry().definition
     }
 
     /// Greatest amount in either direction that is cut without drawing the pattern anew, mm: of a girth 20 mm at a seam
     /// [Liechty10, Armstrong10]; of what is no seam of the trunk, that of a neighbouring size.
-    #[must_use]
     pub const fn most_mm(self) -> f64 {
         self.entry().most_mm
     }
 
     /// True if the amount is the change of half a girth, so that the girth changes by twice the amount.
-    #[must_use]
     pub const fn is_half_girth(self) -> bool {
         self.entry().is_half_girth
     }
 
     /// True if the handle is for a figure, which no girth tells: it is no remedy for a girth by itself.
-    #[must_use]
     pub const fn is_for_figure(self) -> bool {
         use Handle::*;
         matches!(
@@ -272,13 +267,11 @@ impl Handle {
     }
 
     /// Handle with a given name.
-    #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|handle| handle.as_str() == name)
     }
 
     /// Point of measure that changes by exactly the amount. `None` if none does.
-    #[must_use]
     pub const fn changes(self) -> Option<Point> {
         Some(match self {
             Self::Chest => Point::HalfChest,

@@ -136,7 +136,6 @@ impl Handle {
 impl Style {
     /// Handles that can be applied to the style, as far as the roles of its pieces show, in the order of
     /// [`Handle::ALL`].
-    #[must_use]
     pub fn handles(&self) -> Vec<Handle> {
         let anatomy = Anatomy::of(self);
         let body = Body::of(&anatomy, &self.points_of_measure());
@@ -144,10 +143,6 @@ impl Style {
     }
 
     /// Applies handles with their amounts, m, one after the other.
-    ///
-    /// # Errors
-    /// [`HandleError`] if an amount is out of range, the style has no such handle, the sides of a seam do not stay
-    /// equally long, or an outline would cross itself.
     ///
     /// # Examples
     /// ```

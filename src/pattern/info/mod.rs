@@ -50,9 +50,6 @@ pub struct PieceTable {
 
 /// Reads a table: the first sheet of an XLSX file, or CSV in UTF-8 with commas, semicolons or tabs. `file` is its name
 /// for messages.
-///
-/// # Errors
-/// [`InfoError`] if the bytes are no such table, or the table has no column for the piece.
 pub fn read(bytes: &[u8], file: &str) -> Result<PieceTable, InfoError> {
     let fail = |row: Option<usize>, found: String, accepted: &str| InfoError {
         file: file.to_owned(),
@@ -126,9 +123,6 @@ impl PieceTable {
 
     /// Adds the information of the table to the pieces of a pattern. It overrides that of the pattern, except for grain
     /// lines.
-    ///
-    /// # Errors
-    /// [`InfoError`] for a row without a matching piece, two rows for one piece, or an invalid cell.
     pub fn merge(&self, pattern: &mut PatternFile) -> Result<(), InfoError> {
         let Some(by) = self.column(&PIECE) else { return Ok(()) };
         let size_by = self.column(&["size"]);

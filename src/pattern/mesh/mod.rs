@@ -94,7 +94,6 @@ pub struct MeshQuality {
 
 impl MeshQuality {
     /// Quality of the triangles of a garment at rest. `None` without triangles.
-    #[must_use]
     pub fn of(garment: &Garment) -> Option<Self> {
         let mut lengths = Vec::new();
         let mut min_angle = f64::INFINITY;
@@ -131,10 +130,6 @@ impl Style {
     }
 
     /// Meshes the style with edges of about `edge_length_m`.
-    ///
-    /// # Errors
-    /// [`MeshError`] if the edge length is out of [`EDGE_LENGTH_RANGE_M`], there would be too many triangles, a sampled
-    /// outline crosses itself, or a straight measurement leaves its piece.
     pub fn mesh(&self, edge_length_m: f64) -> Result<Garment, MeshError> {
         if !EDGE_LENGTH_RANGE_M.contains(&edge_length_m) {
             return Err(MeshError::EdgeLength {
@@ -204,7 +199,6 @@ impl Style {
     }
 
     /// Traces paths on a mesh of the style. `None` for a path that leaves the cloth.
-    #[must_use]
     pub fn laid(&self, garment: &Garment, paths: &[&[PathPart]]) -> Vec<Option<Vec<MaterialLine>>> {
         let samples = sample(self, garment.edge_length_m);
         let boundary: Vec<Vec<Vec<usize>>> = garment

@@ -47,9 +47,6 @@ impl<'a> Layer<'a> {
     }
 
     /// Lines of a path on the mesh. `place` is the name of the path for messages.
-    ///
-    /// # Errors
-    /// [`MeshError::LineLeavesPiece`] if a straight part leaves its piece.
     pub fn runs(&self, place: &str, path: &[PathPart]) -> Result<Vec<MaterialLine>, MeshError> {
         path.iter()
             .map(|part| match *part {

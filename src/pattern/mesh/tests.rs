@@ -140,8 +140,8 @@ fn meshing_is_deterministic() {
     assert_eq!(style(TshirtSize::M).mesh(0.02), style(TshirtSize::M).mesh(0.02));
 }
 
-/// True if the outline itself forces a bad triangle: a sharp corner, a side much shorter than the edge length, or a
-/// strip too narrow for a vertex inside.
+/// True if the outline forces a bad triangle: by a sharp corner, a short side, or a strip too narrow for a vertex
+/// inside.
 fn is_forced(garment: &Garment, triangle: [usize; 3]) -> bool {
     let h = garment.edge_length_m;
     let sides_of = |t: &[usize; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
@@ -165,7 +165,7 @@ fn is_forced(garment: &Garment, triangle: [usize; 3]) -> bool {
         || triangle.iter().any(|&vertex| has_short(vertex) || (is_on(vertex) && inner_angle(vertex) < 45.0))
 }
 
-/// Pieces drawn by other programs, with an arbitrary edge named. All are meshed, and well if the outline allows it.
+/// Names an arbitrary edge of each piece. Meshes are good where the outline allows it.
 #[test]
 fn pieces_of_other_programs_mesh() {
     let mut angles = Vec::new();

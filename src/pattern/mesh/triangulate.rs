@@ -12,7 +12,6 @@ use geom::V2;
 use geom::polyline::{boundary_distance, contains, self_crossing, signed_area};
 use geom::triangle::sorted;
 
-/// Number of rounds of smoothing.
 const SMOOTHING_ROUNDS: usize = 12;
 /// Least distance of the grid points from the outline, in edge lengths.
 const SEED_CLEARANCE: f64 = 0.62;
@@ -21,19 +20,15 @@ const MOVED_CLEARANCE: f64 = 0.4;
 /// Greatest relative difference between the area of the triangles and that of the outline.
 const AREA_TOLERANCE: f64 = 1e-9;
 
-/// A triangulated polygon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Triangulation {
     /// Points, m: those of the outline first, in its order.
     pub points: Vec<V2>,
-    /// Triangles as indices of points, counter-clockwise.
+    /// Indices of points, counter-clockwise.
     pub triangles: Vec<[usize; 3]>,
 }
 
 /// Triangulates a counter-clockwise polygon with edges of length about `h`.
-///
-/// # Errors
-/// A message on the fault of the polygon.
 pub fn triangulate(outline: &[V2], h: f64) -> Result<Triangulation, String> {
     if let Some(place) = self_crossing(outline) {
         return Err(format!("its sampled outline crosses itself at ({:.1}, {:.1}) mm", place.x * 1e3, place.y * 1e3));
@@ -60,7 +55,7 @@ pub fn triangulate(outline: &[V2], h: f64) -> Result<Triangulation, String> {
     Ok(Triangulation { points, triangles })
 }
 
-/// Points of a hexagonal grid that lie well inside a polygon. Rows run along `u`, from its lowest point.
+/// Hexagonal grid well inside a polygon, in rows along `u` from its lowest point.
 fn hexagonal_seed(outline: &[V2], h: f64) -> Vec<V2> {
     let first = outline[0];
     let (low, high) = outline.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));

@@ -8,22 +8,18 @@ use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef, PathPart, Style};
 use geom::V2;
 
-/// Distance below the armhole at which chest and bicep are measured, m.
+/// Distance below the armhole at which chest and bicep are measured.
 pub const BELOW_ARMHOLE_M: f64 = 0.025;
 
-/// Distance from a corner at which the adjoining piece is looked up, m. At the corner itself, pieces may end.
+/// Distance from a corner at which the adjoining piece is looked up. At the corner itself, pieces may end.
 pub const BESIDE_M: f64 = 1e-3;
 
-/// Part of a garment that a piece belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// Front or back of the trunk.
     Trunk(Face),
-    /// Sleeve of an arm.
     Sleeve(Hand),
-    /// Leg: side of the wearer, and front or back. `None` for a leg in one piece.
+    /// Side of the wearer, and front or back. `None` for a leg in one piece.
     Leg(Hand, Option<Face>),
-    /// Front or back of a skirt.
     Skirt(Face),
     /// Anything else, including waistbands.
     Other,
@@ -49,14 +45,12 @@ impl Part {
     }
 }
 
-/// A chain of edges, each given by the end that it is walked to.
+/// Edges, each given by the end that it is walked to.
 pub type Chain = Vec<EdgeEnd>;
 
 /// A style with the parts that its pieces belong to.
 pub struct Anatomy<'a> {
-    /// Straight paths across the cloth of the style.
     pub ways: Ways<'a>,
-    /// Part of each piece.
     pub parts: Vec<Part>,
 }
 
@@ -71,13 +65,11 @@ impl<'a> Anatomy<'a> {
         anatomy
     }
 
-    /// Style that is identified.
     pub fn style(&self) -> &'a Style {
         self.ways.style
     }
 
-    /// Unit vector away from the neck in a piece: downwards, or in a sleeve, which may be drawn along the arm, away
-    /// from the trunk. `None` for a piece of unknown part.
+    /// Unit vector downwards, or in a sleeve, away from the trunk. `None` for a piece of unknown part.
     fn down(&self, piece: usize) -> Option<V2> {
         match self.parts[piece] {
             Part::Other => None,
@@ -97,7 +89,7 @@ impl<'a> Anatomy<'a> {
         }
     }
 
-    /// Mean of the midpoints of the chords of some edges. `None` without edges.
+    /// Mean of the midpoints of the chords. `None` without edges.
     fn middle(&self, edges: &[EdgeRef]) -> Option<V2> {
         let middles = edges.iter().map(|edge| {
             let points = self.style().edge(*edge).line.points();
@@ -106,18 +98,15 @@ impl<'a> Anatomy<'a> {
         (!edges.is_empty()).then(|| middles.sum::<V2>() / edges.len() as f64)
     }
 
-    /// Position of an end of an edge.
     pub fn place(&self, EdgeEnd { edge, is_last }: EdgeEnd) -> V2 {
         let points = self.style().edge(edge).line.points();
         if is_last { points[points.len() - 1] } else { points[0] }
     }
 
-    /// End of an edge as an edge point.
     pub fn point(&self, EdgeEnd { edge, is_last }: EdgeEnd) -> EdgePoint {
         EdgePoint { edge, arc_m: if is_last { self.length_m(&[edge]) } else { 0.0 } }
     }
 
-    /// Total length of some edges, m.
     pub fn length_m(&self, edges: &[EdgeRef]) -> f64 {
         edges.iter().map(|edge| self.style().edge(*edge).line.length()).sum()
     }
@@ -178,7 +167,7 @@ impl<'a> Anatomy<'a> {
         [front, back]
     }
 
-    /// Point of a chain at a distance from its beginning, m. `None` past its end.
+    /// `None` past the end of the chain.
     pub fn along(&self, chain: &Chain, distance_m: f64) -> Option<EdgePoint> {
         let mut rest_m = distance_m;
         for &EdgeEnd { edge, is_last: is_forwards } in chain {
@@ -226,7 +215,7 @@ impl<'a> Anatomy<'a> {
         self.meetings(edges, value).into_iter().next()
     }
 
-    /// Lowest intersection of a line with some edges of a piece. `value` is zero on the line.
+    /// Lowest intersection of edges with the line on which `value` is zero.
     pub fn lowest_meeting(&self, edges: &[EdgeRef], value: impl Fn(V2) -> f64) -> Option<EdgePoint> {
         let height = |at: &EdgePoint| self.style().place(*at).y;
         self.meetings(edges, value).into_iter().min_by(|point, other| height(point).total_cmp(&height(other)))
@@ -246,12 +235,10 @@ impl<'a> Anatomy<'a> {
         found
     }
 
-    /// Point of measure along a path.
     pub fn along_path(&self, point: Point, path: Vec<PathPart>, share: f64) -> PointOfMeasure {
         PointOfMeasure { point, length_m: share * self.style().path_length_m(&path), path, share }
     }
 
-    /// Point of measure along whole edges.
     pub fn along_edges(&self, point: Point, edges: &[EdgeRef], share: f64) -> PointOfMeasure {
         self.along_path(point, edges.iter().copied().map(PathPart::Edge).collect(), share)
     }
@@ -305,12 +292,10 @@ impl<'a> Anatomy<'a> {
     }
 }
 
-/// Path along the whole edges of a chain.
 pub fn path_along(chain: &Chain) -> Vec<PathPart> {
     chain.iter().map(|step| PathPart::Edge(step.edge)).collect()
 }
 
-/// Point of measure that is a distance through the air, without a path.
 pub fn distance(point: Point, length_m: f64) -> PointOfMeasure {
     PointOfMeasure { point, length_m, path: Vec::new(), share: 1.0 }
 }

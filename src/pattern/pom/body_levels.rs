@@ -11,33 +11,29 @@ use crate::style::{PathPart, Style};
 /// Heights of the levels of a standing body above the floor, m, and distances along its arm from the shoulder point, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stand {
-    /// Side neck points.
     pub side_neck_m: f64,
-    /// Underbust.
     pub underbust_m: f64,
     /// Waist level (ISO 8559-1).
     pub waist_m: f64,
-    /// Hip, at the greatest protrusion of the buttocks.
+    /// Greatest protrusion of the buttocks.
     pub hip_m: f64,
-    /// Crotch, at the upper end of the inside leg.
+    /// Upper end of the inside leg.
     pub crotch_m: f64,
-    /// Middle of the knee.
     pub knee_m: f64,
-    /// Distance of the forearm level along the arm.
     pub forearm_along_m: f64,
-    /// Distance of the wrist along the arm.
     pub wrist_along_m: f64,
 }
 
 /// Girth or width of a garment at a level of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WornLength {
-    /// Level: `neck`, `across_shoulder`, `chest`, `underbust`, `waist`, `hip`, `thigh`, `knee`, `upper_arm`, `forearm`, `wrist`.
+    /// One of `neck`, `across_shoulder`, `chest`, `underbust`, `waist`, `hip`, `thigh`, `knee`, `upper_arm`, `forearm`,
+    /// `wrist`.
     pub level: &'static str,
-    /// Girth of the cloth, or its width across the shoulders, m.
+    /// Girth of the cloth, or its width across the shoulders.
     pub length_m: f64,
-    /// Height above the floor of the girth on the body, m. `None` for the height of the level. The upper edge of
-    /// trousers may lie elsewhere than the waist.
+    /// Height above the floor; `None` for that of the level. The upper edge of trousers may lie elsewhere than the
+    /// waist.
     pub height_m: Option<f64>,
     /// True if the cut holds the garment to the body there. False where it hangs free from above, as below the chest of
     /// a straight shirt, or is as wide as a limb needs, as at the knee.
@@ -46,16 +42,16 @@ pub struct WornLength {
     pub path: Vec<PathPart>,
 }
 
-/// Greatest distance of a sleeve end above the wrist for it to count as a cuff at the wrist, m.
+/// Greatest distance of a sleeve end above the wrist for it to count as a cuff at the wrist.
 const SHORT_OF_WRIST_M: f64 = 0.040;
-/// Greatest distance from the waist of a seam that counts as the garment's waist, m.
+/// Greatest distance from the waist of a seam that counts as the garment's waist.
 const AT_WAIST_M: f64 = 0.060;
 /// Share of the wider girth by which a cut that follows the body narrows towards its waist: half of what the body does.
 /// Its waist is 12 (men) to 18 % (women) less than its chest, and 25 % less than a woman's hip [en13402].
 const TAKEN_IN: f64 = 0.08;
-/// Distance below its upper edge at which the girth of a skirt is taken, m: below waistband and folded edge.
+/// Distance below its upper edge at which the girth of a skirt is taken: below waistband and folded edge.
 const BELOW_TOP_M: f64 = 0.020;
-/// Distance below the hip over which the flare of a skirt is taken, m.
+/// Distance below the hip over which the flare of a skirt is taken.
 const BELOW_HIP_M: f64 = 0.150;
 /// Growth of a girth above the hip, as a multiple of that below it, from which a skirt is shaped to the hip. In a cone,
 /// such as a circle skirt, it grows alike above and below.
@@ -63,13 +59,11 @@ const BENT: f64 = 1.5;
 
 impl Style {
     /// Girths and widths of the style at the levels of a body that it covers, from the neck down.
-    #[must_use]
     pub fn worn_lengths(&self, stand: &Stand) -> Vec<WornLength> {
         self.worn_lengths_on(std::slice::from_ref(stand)).pop().unwrap_or_default()
     }
 
-    /// As [`Style::worn_lengths`] for several bodies, identifying the pieces once.
-    #[must_use]
+    /// As [`Style::worn_lengths`], but identifies the pieces once.
     pub fn worn_lengths_on(&self, stands: &[Stand]) -> Vec<Vec<WornLength>> {
         let anatomy = Anatomy::of(self);
         let garb = Garb::of(&anatomy);
@@ -78,13 +72,11 @@ impl Style {
     }
 }
 
-/// A length with its path on the cloth.
 struct OnCloth {
     length_m: f64,
     path: Vec<PathPart>,
 }
 
-/// Girths and widths of a garment at the levels of one body.
 fn lengths_on(
     style: &Style,
     anatomy: &Anatomy<'_>,
@@ -142,12 +134,10 @@ fn lengths_on(
     found
 }
 
-/// True if a girth narrows to `narrow_m` as a body does.
 fn is_taken_in(wide_m: Option<f64>, narrow_m: Option<f64>) -> bool {
     wide_m.zip(narrow_m).is_some_and(|(wide, narrow)| narrow <= (1.0 - TAKEN_IN) * wide)
 }
 
-/// True if a skirt widens from the waist to the hip, and less below.
 fn is_shaped_to_the_hip(girth_m_at: impl Fn(f64) -> Option<f64>, stand: &Stand) -> bool {
     let top_m = stand.waist_m - BELOW_TOP_M;
     let (top, hip) = (girth_m_at(top_m), girth_m_at(stand.hip_m));
@@ -161,7 +151,7 @@ fn is_shaped_to_the_hip(girth_m_at: impl Fn(f64) -> Option<f64>, stand: &Stand) 
 struct Hangs {
     path: Vec<PathPart>,
     top_m: f64,
-    /// Height above the floor below which the cloth goes all round, m.
+    /// Height above the floor below which the cloth goes all round.
     round_m: f64,
 }
 
@@ -181,7 +171,7 @@ impl Hangs {
         Some(Self { path, top_m: stand.waist_m, round_m: stand.waist_m })
     }
 
-    /// Path round the cloth at a height above the floor, m. `None` at a height where the cloth does not go all round.
+    /// Path at a height above the floor. `None` where the cloth does not go all round.
     fn round(&self, anatomy: &Anatomy<'_>, height_m: f64) -> Option<Vec<PathPart>> {
         let point = anatomy.ways.along(&self.path, self.top_m - height_m).filter(|_| height_m <= self.round_m)?;
         anatomy.ways.round_through(point)

@@ -15,16 +15,13 @@ pub struct HangLines {
     pub waist: Vec<PathPart>,
     /// Side seams and outseams of both sides, each from its upper end.
     pub side_seams: Vec<Vec<PathPart>>,
-    /// Height of the hem in front above that behind, as the pieces are drawn from the shoulder down, m; 0 where they
-    /// tell nothing.
+    /// Height of the hem in front above that behind, as drawn from the shoulder down; 0 where the pieces tell nothing.
     pub drawn_hem_m: f64,
-    /// Height of the upper edge of trousers at centre front above that at centre back, as drawn, m; 0 of others.
+    /// Height of the upper edge of trousers at centre front above that at centre back, as drawn; 0 of others.
     pub drawn_waist_m: f64,
 }
 
 impl Style {
-    /// Lines by which the balance of the style is judged.
-    #[must_use]
     pub fn hang_lines(&self) -> HangLines {
         let anatomy = Anatomy::of(self);
         let garb = Garb::of(&anatomy);

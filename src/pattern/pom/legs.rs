@@ -7,13 +7,11 @@ use crate::propose::{Face, Hand};
 use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef, PathPart};
 
-/// Distance below the fork at which the thigh is measured, m.
 const THIGH_BELOW_FORK_M: f64 = 0.025;
-/// Height above the fork at which the hip is measured, m, as on a person of 1.7 m.
+/// Height above the fork at which the hip is measured, as on a person of 1.7 m.
 const HIP_ABOVE_FORK_M: f64 = 0.080;
-/// Distance of the knee above the middle of the inseam, m.
 const KNEE_ABOVE_MIDDLE_M: f64 = 0.050;
-/// Length of the inseam from which a leg has a knee, m.
+/// Length of the inseam from which a leg has a knee.
 const LONG_M: f64 = 0.500;
 
 /// One side of the outline of a leg piece, from the waist down to the hem.
@@ -24,11 +22,9 @@ pub struct Run {
     pub seam: Chain,
 }
 
-/// Path down the front of a leg.
 pub struct LegFront {
-    /// Straight parts of the path.
     pub path: Vec<PathPart>,
-    /// Height of the beginning of the path above the fork, m.
+    /// Height of the beginning of the path above the fork.
     pub above_fork_m: f64,
 }
 
@@ -38,9 +34,9 @@ pub struct Legs<'a> {
     /// Upper edges of both legs.
     pub waist: Vec<EdgeRef>,
     hem: Vec<EdgeRef>,
-    /// Inner sides, front and back.
+    /// Front and back.
     pub inner: [Run; 2],
-    /// Outer sides, front and back. `None` for a leg in one piece.
+    /// Front and back. `None` for a leg in one piece.
     pub outer: Option<[Chain; 2]>,
 }
 
@@ -52,7 +48,7 @@ impl<'a> Legs<'a> {
         Hand::BOTH.into_iter().find(is_there).and_then(|hand| Self::of(anatomy, hand))
     }
 
-    /// Leg of a side. `None` if no fork is found.
+    /// `None` if no fork is found.
     pub fn of(anatomy: &'a Anatomy<'a>, hand: Hand) -> Option<Self> {
         let is_leg = |piece: usize| matches!(anatomy.parts[piece], Part::Leg(..));
         let openings = anatomy.style().openings(&is_leg);
@@ -85,7 +81,6 @@ impl<'a> Legs<'a> {
         })
     }
 
-    /// Points of measure of the leg.
     pub fn points(&self) -> Vec<PointOfMeasure> {
         let anatomy = self.anatomy;
         let is_leg = |piece: usize| matches!(anatomy.parts[piece], Part::Leg(..));
@@ -125,7 +120,6 @@ impl<'a> Legs<'a> {
         self.outer.clone().map(|[front, _]| front)
     }
 
-    /// Piece and position of the fork of the front.
     fn fork(&self) -> PiecePoint {
         let fork = self.inner[0].seam[0].other();
         PiecePoint { piece: fork.edge.piece, at: self.anatomy.place(fork) }
@@ -143,18 +137,18 @@ impl<'a> Legs<'a> {
         Some(LegFront { path: way.parts, above_fork_m: anatomy.style().place(top).y - fork.y })
     }
 
-    /// Height of the upper edge above the fork in front, m, with yoke and waistband.
+    /// Height of the upper edge above the fork in front, with yoke and waistband.
     pub fn top_above_fork_m(&self) -> f64 {
         self.run_above_fork_m(&self.inner[0])
     }
 
-    /// Height of the upper edge at centre front above that at centre back, as the pieces are drawn, m.
+    /// Height of the upper edge at centre front above that at centre back, as the pieces are drawn.
     pub fn front_over_back_m(&self) -> f64 {
         let [front, back] = &self.inner;
         self.run_above_fork_m(front) - self.run_above_fork_m(back)
     }
 
-    /// Height of the upper end of an inner side above its fork, m, with yoke and waistband.
+    /// Height of the upper end of an inner side, with yoke and waistband.
     fn run_above_fork_m(&self, run: &Run) -> f64 {
         let anatomy = self.anatomy;
         let on_leg_m: f64 = run.crotch.iter().map(|step| anatomy.length_m(&[step.edge])).sum();
@@ -162,8 +156,7 @@ impl<'a> Legs<'a> {
         anatomy.place(run.crotch[0].other()).y - anatomy.place(run.seam[0].other()).y + above_m
     }
 
-    /// Path round the leg at a height above the fork, m, negative below it. `None` if the leg does not reach that
-    /// height.
+    /// Negative heights, m, lie below the fork. `None` if the leg does not reach that height.
     pub fn round(&self, above_fork_m: f64) -> Option<Vec<PathPart>> {
         let down = self.way_down()?;
         let ways = &self.anatomy.ways;
@@ -198,7 +191,6 @@ impl<'a> Legs<'a> {
     }
 }
 
-/// True if an opening of legs lies in the upper half of its pieces.
 fn is_upper(anatomy: &Anatomy<'_>, opening: &[EdgeRef]) -> bool {
     let above = |edge: &EdgeRef| {
         let outline = anatomy.style().pieces[edge.piece].outline();
@@ -209,8 +201,7 @@ fn is_upper(anatomy: &Anatomy<'_>, opening: &[EdgeRef]) -> bool {
     opening.iter().map(above).sum::<f64>() > 0.0
 }
 
-/// Both sides of the outline of a piece, each from the waist to the hem. The side that precedes the waist in the
-/// outline comes first.
+/// Both sides of the outline, from waist to hem; the one that precedes the waist in the outline comes first.
 fn runs(anatomy: &Anatomy<'_>, piece: usize, waist: &[EdgeRef], hem: &[EdgeRef]) -> Option<[Chain; 2]> {
     let n = anatomy.style().pieces[piece].edges.len();
     let edge = |k: usize| EdgeRef { piece, edge: k % n };

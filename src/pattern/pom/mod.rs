@@ -25,62 +25,34 @@ use self::sleeve::Sleeve;
 use self::top::Trunk;
 use super::style::{PathPart, Style};
 
-/// A point of measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Point {
-    /// Half of the girth below the armhole.
     HalfChest,
-    /// Half of the girth at the waist.
     HalfWaist,
-    /// Half of the girth at the hip.
     HalfHip,
-    /// Half of the lower edge.
     HalfHem,
-    /// Length of the front from the high point of the shoulder.
     FrontLength,
-    /// Length of the back from the high point of the shoulder.
     BackLength,
-    /// Length of the front along its centre.
     CentreFrontLength,
-    /// Length of the back along its centre.
     CentreBackLength,
-    /// Width of the front between the armholes.
     AcrossFront,
-    /// Width of the back between the armholes.
     AcrossBack,
-    /// Width between the shoulder points.
     AcrossShoulder,
-    /// Length of the shoulder seam.
     Shoulder,
-    /// Length of the armhole.
     Armhole,
-    /// Length of the sleeve.
     SleeveLength,
-    /// Half of the sleeve's girth below the armhole.
     HalfBicep,
-    /// Half of the sleeve's lower edge.
     HalfCuff,
-    /// Width of the neck.
     NeckWidth,
-    /// Depth of the neck in front.
     FrontNeckDrop,
-    /// Depth of the neck behind.
     BackNeckDrop,
-    /// Length of the neckline.
     Neck,
-    /// Length of the seat seam in front.
     FrontRise,
-    /// Length of the seat seam behind.
     BackRise,
-    /// Length of the inseam.
     Inseam,
-    /// Length of the outseam.
     Outseam,
-    /// Half of the leg's girth below the fork.
     HalfThigh,
-    /// Half of the leg's girth at the knee.
     HalfKnee,
-    /// Half of the leg's lower edge.
     HalfLegOpening,
 }
 
@@ -116,7 +88,6 @@ impl Point {
         Self::HalfLegOpening,
     ];
 
-    /// Name in tables and SQL, and definition.
     const fn words(self) -> (&'static str, &'static str) {
         match self {
             Self::HalfChest => ("half_chest", "half of the girth 25 mm below the armhole, along the side seam"),
@@ -179,24 +150,19 @@ impl Point {
     }
 
     /// Name in tables and SQL.
-    #[must_use]
     pub const fn as_str(self) -> &'static str {
         self.words().0
     }
 
-    /// Definition: how the length is measured.
-    #[must_use]
     pub const fn definition(self) -> &'static str {
         self.words().1
     }
 }
 
-/// A point of measure, measured on a garment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointOfMeasure {
-    /// Point of measure.
     pub point: Point,
-    /// `share` of the length of the path, m. Plus the distance from the high point of the shoulder to the path, if the
+    /// `share` of the length of the path. Plus the distance from the high point of the shoulder to the path, if the
     /// length is measured from there.
     pub length_m: f64,
     /// Path on the cloth. Empty for a distance through the air, such as the width of a neck.
@@ -207,14 +173,12 @@ pub struct PointOfMeasure {
 
 impl Style {
     /// Points of measure that the roles of the pieces show, in the order of [`Point::ALL`].
-    #[must_use]
     pub fn points_of_measure(&self) -> Vec<PointOfMeasure> {
         let anatomy = Anatomy::of(self);
         Garb::of(&anatomy).points()
     }
 }
 
-/// Parts of a garment that have points of measure.
 struct Garb<'a> {
     anatomy: &'a Anatomy<'a>,
     trunk: Option<Trunk<'a>>,

@@ -12,30 +12,27 @@ use geom::units::{from_mm, mm};
 /// Part of the garment from which the place of a point is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum OwnKind {
-    /// Half of the girth below the armhole, along the side seam.
+    /// Along the side seam.
     HalfBelowArmhole,
-    /// Half of the girth below the high point of the shoulder, straight down the front.
+    /// Straight down the front.
     HalfBelowHps,
-    /// Half of the girth above the lower edge, along the side seam.
+    /// Along the side seam.
     HalfAboveHem,
-    /// Half of the girth below the upper edge of trousers and skirts.
     HalfBelowWaist,
-    /// Half of the girth above the fork of trousers.
     HalfAboveFork,
-    /// Half of the leg's girth below the fork, along the inseam.
+    /// Along the inseam.
     HalfBelowFork,
-    /// Half of the sleeve's girth below the armhole, along the underarm seam.
+    /// Along the underarm seam.
     SleeveBelowArmhole,
-    /// Half of the sleeve's girth above its lower edge, along the sleeve.
+    /// Along the sleeve.
     SleeveAboveCuff,
-    /// Width of the front between the armholes, below the high point of the shoulder.
+    /// Between the armholes, below the high point of the shoulder.
     AcrossFront,
-    /// Width of the back between the armholes, below the high point of the shoulder.
+    /// Between the armholes, below the high point of the shoulder.
     AcrossBack,
 }
 
 impl OwnKind {
-    /// All kinds, with their names in tables and SQL.
     pub const ALL: [(Self, &'static str); 10] = [
         (Self::HalfBelowArmhole, "half_below_armhole"),
         (Self::HalfBelowHps, "half_below_hps"),
@@ -50,26 +47,15 @@ impl OwnKind {
     ];
 }
 
-/// Greatest distance of a point of one's own from its part of the garment, mm.
 const MOST_MM: f64 = 2000.0;
 
-/// A length of a garment: a point of measure, or one of one's own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Measure {
-    /// A point of measure.
     Point(Point),
-    /// A point of one's own.
-    Own {
-        /// Length, and part of the garment from which its place is measured.
-        kind: OwnKind,
-        /// Distance of the place from that part, m.
-        at_m: f64,
-    },
+    Own { kind: OwnKind, at_m: f64 },
 }
 
 impl Measure {
-    /// True if the length is half of a girth.
-    #[must_use]
     pub fn is_half(self) -> bool {
         match self {
             Self::Point(point) => point.as_str().starts_with("half"),
@@ -78,7 +64,6 @@ impl Measure {
     }
 
     /// True if the length goes all round, and is often specified as half of that.
-    #[must_use]
     pub fn is_round(self) -> bool {
         matches!(self, Self::Point(Point::Armhole | Point::Neck))
     }
@@ -100,7 +85,6 @@ impl fmt::Display for Measure {
 impl FromStr for Measure {
     type Err = String;
 
-    /// Reads a name. The error says which names are accepted.
     fn from_str(text: &str) -> Result<Self, String> {
         let (name, at) = text.split_once('@').map_or((text, None), |(name, at)| (name, Some(at)));
         let name = name.trim();
@@ -119,7 +103,6 @@ impl FromStr for Measure {
 
 impl Style {
     /// Lengths of the flat pieces, m. `None` for a length that the style does not have.
-    #[must_use]
     pub fn lengths_of(&self, measures: &[Measure]) -> Vec<Option<f64>> {
         let anatomy = Anatomy::of(self);
         let garb = Garb::of(&anatomy);
@@ -133,7 +116,6 @@ impl Style {
 }
 
 impl Garb<'_> {
-    /// Length of a point of one's own, m.
     fn own_m(&self, kind: OwnKind, at_m: f64) -> Option<f64> {
         let anatomy = self.anatomy;
         let half = |path: Vec<PathPart>| 0.5 * anatomy.style().path_length_m(&path);

@@ -7,13 +7,12 @@ use crate::propose::{Class, Face, said};
 use crate::style::openings::EdgeEnd;
 use crate::style::{EdgeRef, PathPart};
 
-/// Distance below the waist at which the hip is measured, m, as on a person of 1.7 m.
+/// Distance below the waist at which the hip is measured, as on a person of 1.7 m.
 const HIP_BELOW_WAIST_M: f64 = 0.200;
 /// Least ratio of chord to length of a waist edge that has a hip below it. A rounder edge is that of a circle skirt,
 /// whose hip is no straight line.
 const STRAIGHT: f64 = 0.9;
 
-/// Points of measure of the skirt of a style.
 pub fn points(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
     let found = points_at_sides(anatomy);
     if found.is_empty() { points_all_round(anatomy) } else { found }
@@ -45,7 +44,7 @@ fn points_all_round(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
     [anatomy.along_edges(Point::HalfWaist, waist, 0.5)].into_iter().chain(hem).collect()
 }
 
-/// Points of measure of a skirt with side seams. Empty without them.
+/// Empty without side seams.
 fn points_at_sides(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
     let is_skirt = |piece: usize| matches!(anatomy.parts[piece], Part::Skirt(_));
     let openings = anatomy.style().openings(&is_skirt);
@@ -105,7 +104,6 @@ fn is_straight(anatomy: &Anatomy<'_>, edge: EdgeRef) -> bool {
     (to - from).norm() > STRAIGHT * anatomy.length_m(&[edge])
 }
 
-/// Length of a skirt along its centre, front or back.
 fn centre(anatomy: &Anatomy<'_>, waist: &[EdgeRef], face: Face) -> Option<PointOfMeasure> {
     let point = if face == Face::Front { Point::CentreFrontLength } else { Point::CentreBackLength };
     let own: Vec<EdgeRef> =

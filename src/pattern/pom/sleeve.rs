@@ -7,7 +7,7 @@ use crate::propose::Hand;
 use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef, PathPart};
 
-/// A sleeve: the right one if there are two.
+/// The right one if there are two.
 pub struct Sleeve<'a> {
     anatomy: &'a Anatomy<'a>,
     hand: Hand,
@@ -16,7 +16,7 @@ pub struct Sleeve<'a> {
 }
 
 impl<'a> Sleeve<'a> {
-    /// Sleeve of a style. `None` for a style without sleeves. `shoulder_points` lie on its armhole seams.
+    /// `None` for a style without sleeves. `shoulder_points` lie on its armhole seams.
     pub fn of(anatomy: &'a Anatomy<'a>, shoulder_points: &[EdgePoint]) -> Option<Self> {
         let hand = Hand::BOTH.into_iter().find(|hand| anatomy.parts.contains(&Part::Sleeve(*hand)))?;
         let on_cap = shoulder_points.iter().find_map(|point| {
@@ -36,7 +36,6 @@ impl<'a> Sleeve<'a> {
         self.anatomy.parts[piece] == Part::Sleeve(self.hand)
     }
 
-    /// Points of measure: length, bicep and cuff.
     pub fn points(&self) -> Vec<PointOfMeasure> {
         let anatomy = self.anatomy;
         let openings = anatomy.style().openings(&|piece| self.holds(piece));
@@ -54,7 +53,6 @@ impl<'a> Sleeve<'a> {
         found
     }
 
-    /// Path round the sleeve at a distance below its cap along the underarm seam, m.
     fn round_from(&self, cap: &[EdgeRef], below_m: f64) -> Option<Vec<PathPart>> {
         let below = self.underarm(cap).and_then(|seam| self.anatomy.along(&seam, below_m));
         below.and_then(|at| self.anatomy.ways.round(at))

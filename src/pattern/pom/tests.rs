@@ -8,7 +8,6 @@ use crate::{Handle, Style, garmentcode, propose};
 use geom::V2;
 use geom::units::mm;
 
-/// Levels of a body.
 const STAND: Stand = Stand {
     side_neck_m: 1.50,
     underbust_m: 1.20,
@@ -20,7 +19,7 @@ const STAND: Stand = Stand {
     wrist_along_m: 0.60,
 };
 
-/// Checks points of measure against lengths in mm.
+/// Expects lengths in mm.
 fn check(what: &str, style: &Style, within_mm: f64, expect: &[(Point, f64)]) {
     let points = style.points_of_measure();
     for (point, expect_mm) in expect {
@@ -35,7 +34,6 @@ fn drafted(model: Model, size: usize) -> Style {
     Style::read(&draft.pieces, model.seams(), "seams").expect("our own draft")
 }
 
-/// Piece with a corner at each of some points, m.
 fn piece(block: &str, outline: &[[f64; 2]]) -> crate::Piece {
     let points: Vec<V2> = outline.iter().map(|[u, v]| V2::new(*u, *v)).collect();
     crate::Piece {
@@ -47,7 +45,6 @@ fn piece(block: &str, outline: &[[f64; 2]]) -> crate::Piece {
     }
 }
 
-/// Width of the cloth of an outline at a height.
 fn width_mm(outline: &[V2], v: f64) -> f64 {
     let sides = outline.iter().zip(outline.iter().cycle().skip(1));
     let crossed = sides.filter(|(a, b)| (a.y <= v) != (b.y <= v));

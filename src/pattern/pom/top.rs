@@ -8,13 +8,12 @@ use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef, PathPart};
 use geom::V2;
 
-/// Distance of the waist below the armhole of a garment with straight sides, m: from chest to waist of a person of 1.7
-/// m.
+/// For straight sides: from chest to waist of a person of 1.7 m.
 const WAIST_BELOW_ARMHOLE_M: f64 = 0.180;
-/// Least distance of the narrowest girth from armhole and hem, and spacing of the candidates, m.
+/// Least distance of the narrowest girth from armhole and hem, and spacing of the candidates.
 const FROM_ENDS_M: f64 = 0.060;
 const STEP_M: f64 = 0.005;
-/// Least difference of the narrowest girth from those at both ends that makes a waist, m.
+/// Least difference of the narrowest girth from those at both ends that makes a waist.
 const SHAPED_M: f64 = 0.008;
 /// Greatest slant of the front edge of an open garment from the vertical, as the tangent of the angle.
 const FRONT_EDGE_SLANT: f64 = 0.14;
@@ -32,18 +31,16 @@ pub struct Trunk<'a> {
     pub openings: Vec<Vec<EdgeRef>>,
     /// Both sides of each side seam that ends at an armhole or at the top edge: front and back, directed downwards.
     pub sides: Vec<[Chain; 2]>,
-    /// Both sides of each shoulder seam, front and back, directed outwards from the neck.
+    /// Front and back side of each shoulder seam, directed outwards from the neck.
     pub shoulders: Vec<[Chain; 2]>,
     /// Indices of the openings that are armholes.
     pub armholes: Vec<usize>,
-    /// Edges of the neckline.
     pub neck: Vec<EdgeRef>,
-    /// Edges of the lower end.
     pub bottom: Vec<EdgeRef>,
 }
 
 impl<'a> Trunk<'a> {
-    /// Trunk of a style. `None` for a style without side seams between a front and a back.
+    /// `None` for a style without side seams between a front and a back.
     pub fn of(anatomy: &'a Anatomy<'a>) -> Option<Self> {
         let openings = anatomy.style().openings(&|piece| matches!(anatomy.parts[piece], Part::Trunk(_)));
         let seams = 0..anatomy.style().seams.len();
@@ -89,7 +86,6 @@ impl<'a> Trunk<'a> {
         (!trunk.sides.is_empty()).then_some(trunk)
     }
 
-    /// Points of measure of the trunk.
     pub fn points(&self) -> Vec<PointOfMeasure> {
         let mut found = self.girths();
         for face in Face::BOTH {
@@ -101,8 +97,7 @@ impl<'a> Trunk<'a> {
         found
     }
 
-    /// Separates neck and hem of a garment that is open in front. Both are parts of one opening, with the front edges
-    /// between them.
+    /// One opening of a garment that is open in front holds both, with the front edges between.
     fn part_neck_from_hem(&mut self) {
         let opening = std::mem::take(&mut self.neck);
         let Some(first) = opening.iter().position(|edge| self.is_front_edge(*edge)) else {
@@ -127,7 +122,6 @@ impl<'a> Trunk<'a> {
         self.bottom = bottom.unwrap_or_default();
     }
 
-    /// True for a vertical edge at the centre of half a front.
     fn is_front_edge(&self, edge: EdgeRef) -> bool {
         if self.anatomy.parts[edge.piece] != Part::Trunk(Face::Front) {
             return false;
@@ -140,7 +134,6 @@ impl<'a> Trunk<'a> {
         is_outer && (to.x - from.x).abs() < FRONT_EDGE_SLANT * (to.y - from.y).abs()
     }
 
-    /// Girths at chest, waist and hem.
     fn girths(&self) -> Vec<PointOfMeasure> {
         let anatomy = self.anatomy;
         let mut found = Vec::new();
@@ -165,7 +158,6 @@ impl<'a> Trunk<'a> {
         found
     }
 
-    /// Path round the body at a distance along a side seam, m.
     fn round_along(&self, side: &Chain, below_m: f64) -> Option<Vec<PathPart>> {
         self.anatomy.along(side, below_m).and_then(|at| self.anatomy.ways.round(at))
     }
@@ -176,8 +168,7 @@ impl<'a> Trunk<'a> {
         self.round_along(side, below_m + self.dip_m(side))
     }
 
-    /// Path round the body at a distance straight down the front from the high point of the shoulder, m. `None` above
-    /// the armhole, and past the lower edge.
+    /// Distance from the high point of the shoulder, m. `None` above the armhole, and past the lower edge.
     pub fn round_below_neck(&self, below_m: f64) -> Option<Vec<PathPart>> {
         let underarm_m = self.underarm_below_neck_m()?;
         let down = self.way_down()?;
@@ -186,7 +177,7 @@ impl<'a> Trunk<'a> {
         ways.round_through(at)
     }
 
-    /// Depth of the armhole below the upper end of a side seam, m: a panel between front and back is hollow at the top.
+    /// Depth of the armhole below the upper end of a side seam: a panel between front and back is hollow at the top.
     fn dip_m(&self, side: &Chain) -> f64 {
         let anatomy = self.anatomy;
         let top = side[0].other();
@@ -196,12 +187,11 @@ impl<'a> Trunk<'a> {
         heights.map(|y| anatomy.place(top).y - y).fold(0.0, f64::max)
     }
 
-    /// High points of the shoulder, where it meets the neck, on front or back.
+    /// Corners of front or back at which the shoulder meets the neck.
     pub fn high_points(&self, face: Face) -> Vec<EdgeEnd> {
         self.shoulders.iter().map(|sides| sides[usize::from(face == Face::Back)][0]).map(|step| step.other()).collect()
     }
 
-    /// Lengths of front or back: from the high point of the shoulder, and along the centre.
     fn lengths(&self, face: Face) -> Vec<PointOfMeasure> {
         let anatomy = self.anatomy;
         let (from_shoulder, centre) = match face {
@@ -223,15 +213,14 @@ impl<'a> Trunk<'a> {
         found
     }
 
-    /// Length from a high point of the shoulder straight down. Where the neckline dips below the shoulder, the path
-    /// begins at the neckline, and the distance above it is added, as a tape would span it.
+    /// Length straight down. Where the neckline dips below the shoulder, the path begins at the neckline, and the
+    /// distance above it is added, as a tape would span it.
     fn length_from_neck(&self, point: Point, high: EdgeEnd) -> Option<PointOfMeasure> {
         let down = self.down_from(high)?;
         let along = self.anatomy.along_path(point, down.path, 1.0);
         Some(PointOfMeasure { length_m: along.length_m + down.below_neck_m, ..along })
     }
 
-    /// Path straight down from a high point of the shoulder.
     pub fn down_from(&self, high: EdgeEnd) -> Option<PathFromNeck> {
         let anatomy = self.anatomy;
         let top = anatomy.place(high);
@@ -247,12 +236,11 @@ impl<'a> Trunk<'a> {
         Some(PathFromNeck { path: way.parts, below_neck_m: top.y - height(from) })
     }
 
-    /// Path down the front from the high point of the shoulder.
     pub fn way_down(&self) -> Option<PathFromNeck> {
         self.down_from(*self.high_points(Face::Front).first()?)
     }
 
-    /// Height of the high point of the shoulder above the underarm, m. `None` if no piece has both.
+    /// Height of the high point of the shoulder above the underarm. `None` if no piece has both.
     fn underarm_below_neck_m(&self) -> Option<f64> {
         let underarms = self.sides.iter().flatten().map(|chain| chain[0].other());
         let high = Face::BOTH.into_iter().flat_map(|face| self.high_points(face)).collect::<Vec<_>>();
@@ -262,20 +250,18 @@ impl<'a> Trunk<'a> {
         })
     }
 
-    /// Distance of the chest level below the high point of the shoulder, m. `None` if no piece has high point and
-    /// underarm.
+    /// `None` if no piece has high point and underarm.
     pub fn chest_below_neck_m(&self) -> Option<f64> {
         self.underarm_below_neck_m().map(|m| m + BELOW_ARMHOLE_M)
     }
 
-    /// Distance of the waist seam at the side below the high point of the shoulder, m. `None` if nothing hangs from the
-    /// trunk, or no piece has high point and underarm.
+    /// Waist seam at the side. `None` if nothing hangs from the trunk, or no piece has high point and underarm.
     pub fn waist_below_neck_m(&self) -> Option<f64> {
         let side_m: f64 = self.sides[0][0].iter().map(|step| self.anatomy.length_m(&[step.edge])).sum();
         self.underarm_below_neck_m().filter(|_| self.anatomy.has_below(&self.bottom)).map(|m| m + side_m)
     }
 
-    /// Front sides of the side seams, directed downwards.
+    /// Front sides, directed downwards.
     pub fn side_seams(&self) -> Vec<Chain> {
         self.sides.iter().map(|[front, _]| front.clone()).collect()
     }
@@ -286,7 +272,6 @@ impl<'a> Trunk<'a> {
         outer.map(|end| self.anatomy.point(self.anatomy.style().over_corner(end))).collect()
     }
 
-    /// Intersection of the neckline with the centre of front or back.
     pub fn neck_centre(&self, face: Face) -> Option<Centre> {
         let anatomy = self.anatomy;
         let high = self.high_points(face);
@@ -311,7 +296,6 @@ impl<'a> Trunk<'a> {
         }
     }
 
-    /// Width, depths and length of the neck.
     fn neck(&self) -> Vec<PointOfMeasure> {
         let anatomy = self.anatomy;
         let mut found = Vec::new();
@@ -339,7 +323,6 @@ impl<'a> Trunk<'a> {
         found
     }
 
-    /// Lengths of shoulder and armhole, and the width between the shoulders.
     fn shoulders(&self) -> Vec<PointOfMeasure> {
         let anatomy = self.anatomy;
         let mut found = Vec::new();
@@ -366,13 +349,13 @@ impl<'a> Trunk<'a> {
         found
     }
 
-    /// Width of front or back half-way up the armhole.
+    /// Width half-way up the armhole.
     fn across(&self, face: Face) -> Option<PointOfMeasure> {
         let starts = self.armholes.iter().filter_map(|k| self.half_way_up(*k, face));
         self.across_from(face, &starts.collect::<Vec<_>>())
     }
 
-    /// Width of front or back at a distance below the high point of the shoulder, m. `None` where no armhole is.
+    /// Width at a distance below the high point of the shoulder. `None` where no armhole is.
     pub fn across_below_neck_m(&self, face: Face, below_m: f64) -> Option<f64> {
         let anatomy = self.anatomy;
         let level = |armhole: &usize| {
@@ -389,7 +372,7 @@ impl<'a> Trunk<'a> {
         self.across_from(face, &starts).map(|found| found.length_m)
     }
 
-    /// Width of front or back from armhole to armhole, level from a point of each.
+    /// Width from armhole to armhole, level from a point of each.
     fn across_from(&self, face: Face, starts: &[EdgePoint]) -> Option<PointOfMeasure> {
         let anatomy = self.anatomy;
         let point = if face == Face::Front { Point::AcrossFront } else { Point::AcrossBack };
@@ -417,8 +400,7 @@ impl<'a> Trunk<'a> {
         width_m.map(|m| distance(point, m))
     }
 
-    /// Point of an armhole, front or back, half-way between underarm and shoulder: in height if one piece has both,
-    /// otherwise along the armhole.
+    /// In height if one piece has underarm and shoulder, otherwise along the armhole.
     fn half_way_up(&self, armhole: usize, face: Face) -> Option<EdgePoint> {
         let anatomy = self.anatomy;
         let on_face = |edge: &&EdgeRef| anatomy.parts[edge.piece] == Part::Trunk(face);
@@ -445,19 +427,17 @@ impl<'a> Trunk<'a> {
     }
 }
 
-/// Path down from a high point of the shoulder.
 pub struct PathFromNeck {
-    /// Straight parts of the path.
     pub path: Vec<PathPart>,
-    /// Distance of the beginning of the path below the high point, m.
+    /// Distance of the beginning of the path below the high point of the shoulder.
     pub below_neck_m: f64,
 }
 
 /// Intersection of the neckline with the centre of a front or back.
 pub enum Centre {
-    /// A point on the neckline of a whole piece.
+    /// Whole piece.
     Within(EdgePoint),
-    /// End of the neckline of half a piece.
+    /// Half a piece.
     Corner(EdgeEnd),
 }
 

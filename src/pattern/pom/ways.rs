@@ -9,15 +9,13 @@ use crate::style::{EdgePoint, EdgeRef, PathPart, Style};
 use geom::V2;
 use geom::polyline::{contains, segment_meeting};
 
-/// Greatest length of a path in one piece, m.
 const REACH_M: f64 = 10.0;
-/// Least length of a path in one piece, m. A nearer intersection is with the edge at which the path starts.
+/// Least length of a path in one piece. A nearer intersection is with the edge at which the path starts.
 const LEAST_M: f64 = 1e-5;
-/// Greatest number of pieces on a path.
 const MOST_PIECES: usize = 64;
 /// Cosine of the angle between an edge and the way down above which the edge is an opening: 45 degrees.
 const UPRIGHT: f64 = std::f64::consts::FRAC_1_SQRT_2;
-/// Distance from its start at which a path round the body counts as closed, m.
+/// Distance from its start at which a path round the body counts as closed.
 const BACK_M: f64 = 0.05;
 
 /// Direction of a path, as the garment is worn.
@@ -29,45 +27,37 @@ pub enum Heading {
     Down,
 }
 
-/// A path across the cloth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Way {
-    /// Straight parts, one for each piece.
+    /// Straight, one for each piece.
     pub parts: Vec<PathPart>,
-    /// End point.
     pub end: EdgePoint,
 }
 
-/// A point inside a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PiecePoint {
-    /// Index of the piece.
     pub piece: usize,
-    /// Position in the plane of the piece.
     pub at: V2,
 }
 
-/// Position of an edge in a seam.
 #[derive(Clone, Copy)]
 struct Sewn {
     seam: usize,
     is_b: bool,
-    /// Distance along the side, in the direction of sewing, at which the edge begins, m.
+    /// Distance along the side, in the direction of sewing, at which the edge begins.
     from_m: f64,
 }
 
 /// Seams of a style by their edges, for paths to cross.
 pub struct Ways<'a> {
-    /// Style whose pieces are crossed.
     pub style: &'a Style,
     sewn: BTreeMap<EdgeRef, Sewn>,
-    /// Unit vector away from the neck in each piece. `None` for a piece in which a path keeps the direction in which it
-    /// came.
+    /// Unit vectors away from the neck. `None` for a piece in which a path keeps the direction in which it came.
     down: Vec<Option<V2>>,
 }
 
 impl<'a> Ways<'a> {
-    /// Indexes the seams of a style. `down` is the unit vector away from the neck in each piece.
+    /// `down` is the unit vector away from the neck in each piece.
     pub fn new(style: &'a Style, down: Vec<Option<V2>>) -> Self {
         let mut sewn = BTreeMap::new();
         for (seam, joined) in style.seams.iter().enumerate() {
@@ -82,17 +72,16 @@ impl<'a> Ways<'a> {
         Self { style, sewn, down }
     }
 
-    /// Unit vector away from the neck in a piece. `None` as of [`Ways::new`].
+    /// `None` as of [`Ways::new`].
     pub fn down(&self, piece: usize) -> Option<V2> {
         self.down[piece]
     }
 
-    /// True if nothing is sewn to an edge.
     pub fn is_free(&self, edge: EdgeRef) -> bool {
         !self.sewn.contains_key(&edge)
     }
 
-    /// Edges on the other side of the seam of an edge. Empty for a free edge.
+    /// Edges on the other side of the seam. Empty for a free edge.
     pub fn partners(&self, edge: EdgeRef) -> &'a [EdgeRef] {
         let side = |sewn: &Sewn| self.side(sewn.seam, !sewn.is_b);
         self.sewn.get(&edge).map_or(&[], side)
@@ -139,8 +128,7 @@ impl<'a> Ways<'a> {
         if forwards { ahead.normalize() } else { -ahead.normalize() }
     }
 
-    /// Candidate directions of a path from a point. `came` is the direction in which the path entered the piece. `None`
-    /// at its start.
+    /// Candidates. `came` is the direction in which the path entered the piece, `None` at its start.
     fn directions(&self, at: EdgePoint, heading: Heading, came: Option<V2>) -> Vec<V2> {
         match (self.down[at.edge.piece], heading, came) {
             // Beside a dart the straight direction may lead off the piece. Then the path keeps its direction.
@@ -154,14 +142,13 @@ impl<'a> Ways<'a> {
         }
     }
 
-    /// Inward normal of an edge.
     fn inwards(&self, at: EdgePoint) -> V2 {
         let line = &self.style.edge(at.edge).line;
         let ahead = (line.at(at.arc_m + LEAST_M) - line.at(at.arc_m - LEAST_M)).normalize();
         V2::new(-ahead.y, ahead.x)
     }
 
-    /// Point at which a straight path from a point leaves its piece. `None` if the path does not enter the piece.
+    /// `None` if the path does not enter the piece.
     fn leaves(&self, piece: usize, start: V2, direction: V2) -> Option<EdgePoint> {
         let ray = (start, start + direction * REACH_M);
         let mut nearest: Option<(f64, EdgePoint)> = None;
@@ -203,7 +190,7 @@ impl<'a> Ways<'a> {
         None
     }
 
-    /// Point at a distance along a path of straight parts, m. `None` past its ends.
+    /// `None` past the ends of the path.
     pub fn along(&self, path: &[PathPart], distance_m: f64) -> Option<PiecePoint> {
         let mut rest_m = (distance_m >= 0.0).then_some(distance_m)?;
         for part in path {
@@ -233,7 +220,7 @@ impl<'a> Ways<'a> {
         self.is_opening(ahead.end).then(|| self.open_round(ahead.parts, from))?
     }
 
-    /// Path round the body or a limb through a point inside a piece, as of [`Ways::round`].
+    /// As [`Ways::round`], through a point inside a piece.
     pub fn round_through(&self, PiecePoint { piece, at }: PiecePoint) -> Option<Vec<PathPart>> {
         let down = self.down[piece]?;
         let level = V2::new(-down.y, down.x);
@@ -266,7 +253,6 @@ impl<'a> Ways<'a> {
         self.down[end.edge.piece].is_none_or(|down| self.sewn_along(end).dot(&down).abs() > UPRIGHT)
     }
 
-    /// Extends a path that ended at a free edge by the part that leads from its start in the other direction.
     fn open_round(&self, mut path: Vec<PathPart>, start: EdgePoint) -> Option<Vec<PathPart>> {
         let mut end = start;
         if let Some(next) = self.across(start) {

@@ -5,12 +5,11 @@ use super::ProposedSeam;
 use super::worn_pieces::Worn;
 use geom::units::mm;
 
-/// Greatest difference in length of sides that were drafted for each other, mm: the rounding of files.
+/// Greatest difference in length of sides that were drafted for each other: the rounding of files.
 const EXACT_MM: f64 = 0.5;
 /// Share of the remaining doubt in a piece that one seam with equal sides removes.
 const GAIN: f64 = 0.3;
 
-/// Raises the confidence of pieces by the equal lengths along the `seams` proposed for them.
 pub fn assured(mut worn: Vec<Worn>, seams: &[ProposedSeam]) -> Vec<Worn> {
     let agreed: Vec<Vec<f64>> = worn.iter().map(|piece| agreed_mm(piece, &worn, seams)).collect();
     for (piece, lengths) in worn.iter_mut().zip(agreed) {
@@ -19,7 +18,7 @@ pub fn assured(mut worn: Vec<Worn>, seams: &[ProposedSeam]) -> Vec<Worn> {
     worn
 }
 
-/// Lengths along which a piece agrees with others, mm. A length that occurs twice, right and left, counts once.
+/// Lengths that agree with those of others. One that occurs twice, right and left, counts once.
 fn agreed_mm(piece: &Worn, worn: &[Worn], seams: &[ProposedSeam]) -> Vec<f64> {
     let mut lengths: Vec<f64> = Vec::new();
     for seam in seams.iter().filter(|seam| (seam.a_mm - seam.b_mm).abs() < EXACT_MM) {

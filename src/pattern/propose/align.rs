@@ -15,39 +15,32 @@ const TURN_WEIGHT: f64 = 0.3;
 const SHARE_WEIGHT: f64 = 0.2;
 /// Bow at which a curve counts as fully hollow or bulging: about a circular segment of 60 degrees.
 const FULL_BOW: f64 = 0.09;
-/// Weight of a bow against that of the template.
 const BOW_WEIGHT: f64 = 0.4;
 /// Penalty on a section of a skirt or leg with a dart that is not its waist.
 const ASTRAY: f64 = 0.5;
 /// Penalty on the score of a piece that is not upright.
 pub const TURNED: f64 = 0.12;
 
-/// A labelled section of the outline of a piece, as drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Labelled {
-    /// Kind of edge.
     pub label: Label,
     /// Index of the first corner.
     pub from: usize,
-    /// Number of edges.
     pub span: usize,
-    /// True if the section lies on the outer side, or in the right half as drawn: tells apart two sections with one
-    /// label.
+    /// True for the outer side, or the right half as drawn: tells apart two sections with one label.
     pub is_right: bool,
 }
 
-/// A template aligned with a piece.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Alignment {
-    /// Template.
     pub template: Template,
-    /// True if the template was mirrored, so that the wearer's outer side is on the left of the drawing.
+    /// True if the wearer's outer side is on the left of the drawing.
     pub is_mirrored: bool,
-    /// Number of quarter turns, counter-clockwise, that set the piece upright.
+    /// Counter-clockwise, to set the piece upright.
     pub quarter_turns: usize,
-    /// Sections of the outline, one for each part of the template, counter-clockwise.
+    /// One for each part of the template, counter-clockwise.
     pub parts: Vec<Labelled>,
-    /// Score, at most 1.
+    /// At most 1.
     pub score: f64,
 }
 
@@ -57,7 +50,6 @@ pub const LEAST_FIT: f64 = 0.35;
 /// Best alignment of the templates for which `is_one` is true. The piece may be turned, at a penalty: most are drawn
 /// upright. A grain that lies on its side says that the piece does, except for bands, yokes and half sleeves: theirs
 /// may run either way.
-#[must_use]
 pub fn upright(shape: &Shape, is_one: impl Fn(&Template) -> bool) -> Option<Alignment> {
     let cost = |template: &Template, quarter_turns: usize| {
         let hangs = match template.class {
@@ -71,8 +63,7 @@ pub fn upright(shape: &Shape, is_one: impl Fn(&Template) -> bool) -> Option<Alig
     align(shape, TEMPLATES.iter().filter(|template| is_one(template)), cost)
 }
 
-/// Best alignment of some templates with a shape. `cost` is the penalty of a template for a number of quarter turns.
-#[must_use]
+/// `cost` is the penalty of a template for a number of quarter turns.
 pub fn align<'t>(
     shape: &Shape,
     templates: impl Iterator<Item = &'t Template>,
@@ -113,7 +104,7 @@ pub fn align<'t>(
     best
 }
 
-/// Parts of a template, counter-clockwise, mirrored left to right if `is_mirrored`.
+/// Counter-clockwise, mirrored left to right if `is_mirrored`.
 pub fn parts_of(template: &Template, is_mirrored: bool) -> Vec<Part> {
     let mut parts = template.parts.to_vec();
     if is_mirrored {
@@ -131,11 +122,10 @@ pub fn parts_of(template: &Template, is_mirrored: bool) -> Vec<Part> {
 /// All sections of a shape that neither begin nor end inside a dart.
 struct SectionTable {
     edges: usize,
-    /// Sections by first edge, then span minus one. `None` for one that would cut a dart.
+    /// By first edge, then span minus one. `None` for one that would cut a dart.
     table: Vec<Vec<Option<Section>>>,
     total: f64,
-    /// Mirror symmetry of the outline, left to right: the sum of the indices of a corner and its image, modulo the
-    /// number of corners. `None` if the outline is not symmetric.
+    /// Mirror symmetry as `Shape::mirror` gives it.
     mirror: Option<usize>,
 }
 
@@ -177,30 +167,24 @@ impl SectionTable {
     }
 }
 
-/// Partition of an outline into parts.
 struct Cut {
     /// Sum or mean of the goodness of the parts.
     goodness: f64,
-    /// Edges of each part.
     runs: Vec<Run>,
 }
 
-/// Consecutive edges of an outline.
 #[derive(Clone, Copy)]
 struct Run {
-    /// Index of the first corner.
     from: usize,
-    /// Number of edges.
     span: usize,
 }
 
-/// Best partition, the first of equals.
+/// First of equals.
 fn greatest(cuts: impl Iterator<Item = Option<Cut>>) -> Option<Cut> {
     cuts.flatten().reduce(|best, cut| if cut.goodness > best.goodness { cut } else { best })
 }
 
-/// True if parts are their own mirror image: the first part and the one half-way round lie on the axis, the others are
-/// pairs.
+/// First part and the one half-way round lie on the axis, the others are pairs.
 fn is_symmetric(parts: &[Part]) -> bool {
     let n = parts.len();
     n.is_multiple_of(2) && (1..n).all(|k| parts[k].label == parts[n - k].label && parts[k].at[1] == parts[n - k].at[1])
@@ -234,9 +218,7 @@ type Values = Vec<Vec<Option<f64>>>;
 
 /// State of the dynamic programming over the number of edges used since a corner.
 struct Reached {
-    /// Index of the corner at which the first part begins.
     start: usize,
-    /// Number of edges.
     edges: usize,
     /// Best sum of all parts so far, by the number of edges used.
     sums: Vec<Option<f64>>,
@@ -270,7 +252,6 @@ impl Reached {
         Self { start, edges: n, sums, spans }
     }
 
-    /// Best partition of the first `used` edges after the corner.
     fn cut(&self, mut used: usize) -> Option<Cut> {
         let sum = (*self.sums.get(used)?)?;
         let mut runs = Vec::new();

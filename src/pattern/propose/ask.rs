@@ -3,32 +3,24 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-/// A question that the user should decide.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct Question {
-    /// Number by which the user refers to the question.
     pub number: usize,
-    /// Text of the question.
     pub text: String,
-    /// Possible answers, the likeliest first. Empty if only an edit of the seam file can settle the question.
+    /// Likeliest first. Empty if only an edit of the seam file can settle the question.
     pub choices: Vec<String>,
     /// Index of the choice in effect: the user's answer, or else the default. `None` without either.
     pub taken: Option<usize>,
-    /// True if the user answered.
     pub is_answered: bool,
-    /// Edges that the question is about, `PIECE.EDGE` of the proposal; empty for a question about none.
+    /// Edges, `PIECE.EDGE` of the proposal.
     pub about: Vec<String>,
 }
 
-/// Error: an answer to a question, or with a choice, that does not exist.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("answer {number}={letter}: accepted: {accepted}")]
 pub struct UnknownAnswer {
-    /// Number of the question.
     pub number: usize,
-    /// Letter of the choice.
     pub letter: char,
-    /// Description of what is accepted.
     pub accepted: String,
 }
 
@@ -44,17 +36,15 @@ pub(super) fn number(questions: &mut [Question], known: &mut Vec<String>) {
     questions.sort_by_key(|question| question.number);
 }
 
-/// Answers: text of the question, index of the choice.
+/// Text of the question to index of the choice.
 pub type Answers = BTreeMap<String, usize>;
 
 impl Question {
-    /// Makes a question without choices.
     pub(super) fn told(text: String) -> Self {
         Self { number: 0, text, choices: Vec::new(), taken: None, is_answered: false, about: Vec::new() }
     }
 
     /// Parses a question as `Display` writes it.
-    #[must_use]
     pub fn parse(written: &str) -> Self {
         let mut question = Self::parse_choices(written);
         let edges = question.text.strip_suffix(']').and_then(|text| text.rsplit_once(" ["));
@@ -90,8 +80,6 @@ impl Question {
         question
     }
 
-    /// Letter of a choice.
-    #[must_use]
     pub fn letter(choice: usize) -> char {
         u8::try_from(choice).ok().filter(|&choice| choice < 26).map_or('?', |choice| (b'a' + choice) as char)
     }
@@ -120,21 +108,16 @@ impl fmt::Display for Question {
 /// Answer that dismisses the pieces of a question: they are nothing that is draped.
 const NONE_OF_THESE: &str = "none of these: left out";
 
-/// Asks questions: looks up the answers given, and collects the questions.
 pub(super) struct Asker<'a> {
     answers: &'a Answers,
     asked: Vec<Question>,
-    /// Pieces that the user dismissed before.
     dismissed: BTreeSet<usize>,
-    /// Pieces that the user dismisses now.
     dismissing: BTreeSet<usize>,
     /// Questions without an answer of which the drape cannot do without.
     unsettled: Vec<String>,
 }
 
-/// Everything that was asked.
 pub(super) struct Asked {
-    /// Questions in the order in which they were asked.
     pub questions: Vec<Question>,
     /// Pieces that the user dismisses, and has not before.
     pub dismissing: BTreeSet<usize>,
@@ -143,7 +126,6 @@ pub(super) struct Asked {
 }
 
 impl<'a> Asker<'a> {
-    /// Makes an asker with some answers, among them some that dismissed pieces.
     pub fn new(answers: &'a Answers, dismissed: BTreeSet<usize>) -> Self {
         Self { answers, asked: Vec::new(), dismissed, dismissing: BTreeSet::new(), unsettled: Vec::new() }
     }
@@ -153,22 +135,18 @@ impl<'a> Asker<'a> {
         Self::new(self.answers, self.dismissed.clone())
     }
 
-    /// True for a piece that the user dismissed.
     pub fn is_dismissed(&self, piece: usize) -> bool {
         self.dismissed.contains(&piece)
     }
 
-    /// True if the user has answered a question.
     pub fn is_answered(&self, text: &str) -> bool {
         self.answers.contains_key(text)
     }
 
-    /// Ends asking.
     pub fn into_asked(self) -> Asked {
         Asked { questions: self.asked, dismissing: self.dismissing, unsettled: self.unsettled }
     }
 
-    /// Asks a question without choices.
     pub fn tell(&mut self, text: String) {
         self.keep(Question::told(text));
     }

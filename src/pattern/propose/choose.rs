@@ -8,16 +8,13 @@ use super::worn_pieces::{self, id_of};
 use super::{Class, Face, Hand, Label, PartName, sew};
 use crate::piece::Piece;
 
-/// Greatest number of combinations of pieces that are tried.
 const MOST_COMBINATIONS: usize = 256;
-/// Ratio of the length of a waistband to that of all edges that it is sewn to, for a band all round. It may have an
-/// underlap or be eased.
+/// Ratio of a waistband all round to the edges that it is sewn to. It may have an underlap or be eased.
 const ROUND: std::ops::RangeInclusive<f64> = 0.8..=1.35;
 /// As [`ROUND`], for half a waistband.
 const HALF: std::ops::RangeInclusive<f64> = 0.42..=0.68;
 
-/// Selects the pieces of a garment, one for each place: of several candidates the user's choice, or else the one whose
-/// edges fit its neighbours best.
+/// Takes one piece for each place: of several, the user's choice, or else the one whose edges fit its neighbours best.
 pub fn choose(pieces: &[Piece], mut recognised: Vec<Recognised>, asker: &mut Asker<'_>) -> Vec<Recognised> {
     leave_out_sleeves_in_two(pieces, &mut recognised, asker);
     leave_out_half_sleeves(pieces, &mut recognised, asker);
@@ -82,7 +79,6 @@ fn best_of(pieces: &[Piece], all: &[Recognised], contested: &[&Vec<usize>], aske
     best.1
 }
 
-/// Pieces that remain if each contested place has one of its candidates, with waistbands arranged.
 fn kept(all: &[Recognised], contested: &[&Vec<usize>], taken: &[usize]) -> Vec<Recognised> {
     let chosen =
         |index: usize| contested.iter().zip(taken).all(|(rivals, &k)| !rivals.contains(&index) || rivals[k] == index);
@@ -92,8 +88,7 @@ fn kept(all: &[Recognised], contested: &[&Vec<usize>], taken: &[usize]) -> Vec<R
     left
 }
 
-/// Leaves out upper and under sleeves. Outlines do not show where their seams meet the armhole, and either alone is no
-/// sleeve.
+/// Outlines do not show where their seams meet the armhole, and either alone is no sleeve.
 fn leave_out_sleeves_in_two(pieces: &[Piece], recognised: &mut Vec<Recognised>, asker: &mut Asker<'_>) {
     let is_whole_sleeve = |candidate: &&Recognised| candidate.class == Class::Sleeve && candidate.face.is_none();
     let whole: Vec<&Recognised> = recognised.iter().filter(is_whole_sleeve).collect();
@@ -108,7 +103,7 @@ fn leave_out_sleeves_in_two(pieces: &[Piece], recognised: &mut Vec<Recognised>, 
     }
 }
 
-/// Leaves out half sleeves if there is a whole one: files may hold both variants.
+/// Leaves them out if there is a whole sleeve: files may hold both variants.
 fn leave_out_half_sleeves(pieces: &[Piece], recognised: &mut Vec<Recognised>, asker: &mut Asker<'_>) {
     let is_half = |candidate: &Recognised| candidate.class == Class::Sleeve && candidate.face.is_some();
     let has_whole = recognised.iter().any(|candidate| candidate.class == Class::Sleeve && !is_half(candidate));
@@ -125,7 +120,6 @@ fn leave_out_half_sleeves(pieces: &[Piece], recognised: &mut Vec<Recognised>, as
     }
 }
 
-/// True for a waistband whose name gives neither a side nor front or back.
 fn is_round_band(candidate: &Recognised) -> bool {
     candidate.class == Class::Waistband && candidate.face.is_none() && candidate.hand.is_none()
 }
@@ -163,8 +157,7 @@ fn go_round(chosen: &mut Vec<Recognised>) {
     });
 }
 
-/// Total length of the edges that a waistband is sewn to, as worn, m: those of skirt or legs, or else the lower edge of
-/// the trunk.
+/// Edges that a waistband is sewn to, as worn: those of skirt or legs, or else the lower edge of the trunk.
 fn waist_m(chosen: &[Recognised]) -> f64 {
     let total_m = |class: Class, label: Label| -> f64 {
         let copies = |candidate: &Recognised| match candidate.gore {

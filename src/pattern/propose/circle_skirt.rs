@@ -6,18 +6,15 @@ use super::align::{Alignment, Labelled};
 use super::shape::Shape;
 use super::templates::{TEMPLATES, Template};
 
-/// Least angle of a sector, degrees. A flared skirt has a smaller one.
+/// Least angle of a sector. A flared skirt has a smaller one.
 const LEAST_TURN_DEG: f64 = 60.0;
-/// Greatest relative difference of the two straight edges.
 const SIDE_DIFFERENCE: f64 = 0.02;
-/// Greatest bow of an edge that counts as straight.
 const STRAIGHT_BOW: f64 = 0.01;
 /// Confidence in a sector whose name says skirt.
 pub const CONFIDENCE: f64 = 0.9;
 
 /// Reads an outline as an annular sector: the longer arc is its hem, the shorter, hollow arc its waist, and its sides
 /// are straight. `None` for another outline.
-#[must_use]
 pub fn read(shape: &Shape) -> Option<Alignment> {
     if shape.len() != 4 || !shape.darts().is_empty() {
         return None;
@@ -59,7 +56,7 @@ pub fn read(shape: &Shape) -> Option<Alignment> {
     })
 }
 
-/// Angle of a circular arc with a given ratio of arc to chord, radians.
+/// In radians.
 fn turn_of(arc_over_chord: f64) -> f64 {
     // arc / chord = t / sin t for half the angle t, which increases with t.
     let (mut low, mut high) = (0.0, std::f64::consts::PI * 0.999);

@@ -20,7 +20,7 @@ use geom::units::mm;
 const FITS: RangeInclusive<f64> = 0.9..=1.12;
 /// Height of half a collar over its length. A neck is half as high as it is round on one side; half a hood is higher.
 const HIGHEST: f64 = 0.5;
-/// Distance from the middle of a front neckline within which a corner is the centre front, m.
+/// Distance from the middle of a front neckline within which a corner is the centre front.
 const AT_CENTRE_M: f64 = 5e-3;
 
 /// Adds the collar that fits the neckline best, if the user says that it is sewn. `may_be` is true for each piece that is
@@ -66,7 +66,6 @@ pub fn sewn(
     }
 }
 
-/// A band whose ends are sewn to each other.
 fn closed(mut band: Recognised) -> Recognised {
     for part in band.alignment.parts.iter_mut().filter(|part| part.label == Label::End) {
         part.label = Label::Side;
@@ -97,17 +96,16 @@ fn band(pieces: &[Piece], piece: usize, neck_m: f64) -> Option<Recognised> {
     Some(if is_upside_down { Recognised { alignment: turned(read.alignment), ..read } } else { read })
 }
 
-/// True for half of a collar.
 fn is_half(collar: &Recognised) -> bool {
     !collar.alignment.template.is_whole
 }
 
-/// Length of the lower edge of a collar all round, m.
+/// Length of the lower edge all round.
 fn around_m(collar: &Recognised) -> f64 {
     length_m(collar, Label::Lower) * if is_half(collar) { 2.0 } else { 1.0 }
 }
 
-/// A band as half of a collar. Its end at centre back is the squarer one, for the fold of the cloth lies there.
+/// Half of a collar. Its end at centre back is the squarer one, for the fold of the cloth lies there.
 fn halved(band: Recognised) -> Recognised {
     let parts = &band.alignment.parts;
     let ends = (0..parts.len()).filter(|&k| parts[k].label == Label::End);
@@ -131,7 +129,6 @@ fn off_square(shape: &Shape, part: Labelled) -> f64 {
     cosine(part.from).max(cosine(part.from + part.span))
 }
 
-/// A band turned upside down.
 fn turned(alignment: Alignment) -> Alignment {
     let turn = |part: Labelled| Labelled {
         label: match part.label {
@@ -208,7 +205,6 @@ impl<'w> Tailor<'w, '_, '_> {
         [left, of_sleeve(Hand::Left), back, of_sleeve(Hand::Right), right].concat()
     }
 
-    /// Joins a collar to the neckline, and its halves to each other.
     pub fn collar(&mut self) {
         let whole = self.find(Class::Collar, None, Hand::Left);
         let [left, right] = [Hand::Left, Hand::Right].map(|hand| self.find(Class::Collar, Some(Face::Back), hand));

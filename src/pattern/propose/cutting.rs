@@ -3,7 +3,6 @@
 use super::shape::Shape;
 use crate::piece::Piece;
 
-/// Words for the fold of the cloth on which half a piece is laid.
 const FOLD: [&str; 15] = [
     "on fold",
     "on the fold",
@@ -21,20 +20,17 @@ const FOLD: [&str; 15] = [
     "\u{5bf9}\u{6298}",
     "\u{8fde}\u{6298}",
 ];
-/// Words before the number of copies.
 const CUT: [&str; 8] = ["cut", "zuschneiden", "couper", "cortar", "tagliare", "knip", "\u{434}\u{435}\u{442}", "x"];
 
-/// Statement of a file about the cutting of a piece.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Cutting {
-    /// Number of copies. `None` if the file does not say.
+    /// `None` if the file does not say.
     times: Option<u32>,
-    /// True if it is laid on the fold.
     on_fold: bool,
 }
 
 impl Cutting {
-    /// Statement about a piece. The quantity goes before the texts.
+    /// The quantity goes before the texts.
     fn of(piece: &Piece) -> Self {
         let texts = || piece.texts.iter().map(|(_, text)| text.to_lowercase());
         let of_quantity = piece.quantity.as_deref().and_then(|quantity| {
@@ -54,7 +50,7 @@ pub fn is_half(piece: &Piece, shape: &Shape) -> bool {
     piece.beside.fold.is_none() && (on_fold || (times == Some(2) && is_lopsided()))
 }
 
-/// Number of copies that a text gives: `cut 2`, `cut 1 pair`. `None` for another text.
+/// Reads `cut 2`, `cut 1 pair`. `None` for another text.
 fn times_of(text: &str) -> Option<u32> {
     let words: Vec<&str> = text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
     let after = words.iter().position(|word| CUT.contains(word)).and_then(|at| words.get(at + 1))?;

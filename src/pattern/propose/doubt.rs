@@ -29,14 +29,13 @@ const SHARED_MARGIN: f64 = 0.1;
 /// Least confidence of every seam of a piece for its name to be trusted.
 const WELL_SEWN: f64 = 0.5;
 
-/// Statement of a name that may be wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Says {
-    /// Kind of piece. The outline looks like the given other kind.
+    /// The outline looks like the given other kind.
     Class(Class),
-    /// Front or back. The piece looks like a sleeve, or no piece is called the other.
+    /// The piece looks like a sleeve, or no piece is called the other.
     Face,
-    /// Side of the wearer. No piece is called the other.
+    /// No piece is called the other.
     Hand,
 }
 
@@ -69,13 +68,11 @@ pub fn settled(pieces: &[Piece], told: &[Told], asker: &mut Asker<'_>) -> (Vec<N
     (named, reading)
 }
 
-/// A question about a claim.
 struct ClaimQuestion {
     text: String,
     choices: [String; 2],
 }
 
-/// Question about a claim that is set aside: what the name says, or the alternative.
 fn question(name: &str, named: Named, says: Says) -> ClaimQuestion {
     match says {
         Says::Class(looks) => {
@@ -101,7 +98,6 @@ fn question(name: &str, named: Named, says: Says) -> ClaimQuestion {
     }
 }
 
-/// Statements of names without the claims that are set aside.
 fn without(all: &[Named], claims: &[Claim], aside: &[bool]) -> Vec<Named> {
     let mut named = all.to_vec();
     for (claim, _) in claims.iter().zip(aside).filter(|(_, is_aside)| **is_aside) {
@@ -155,7 +151,6 @@ fn aside(pieces: &[Piece], all: &[Named], claims: &[Claim], as_called: &Sewn, as
     aside
 }
 
-/// Claims that outlines, seams or other names contradict.
 fn doubtful(pieces: &[Piece], told: &[Told], all: &[Named], well_sewn: &[bool]) -> Vec<Claim> {
     let worn: Vec<&Named> = all.iter().filter(|named| named.class != Some(Class::Other)).collect();
     let faces: Vec<Face> = worn.iter().filter_map(|named| named.face).collect();
@@ -210,7 +205,6 @@ fn doubtful(pieces: &[Piece], told: &[Told], all: &[Named], well_sewn: &[bool]) 
     claims
 }
 
-/// True for each piece whose seams all have sufficient confidence.
 fn well_sewn(pieces: &[Piece], sewn: &Sewn) -> Vec<bool> {
     let is_well_sewn = |piece: usize| {
         let own = seams_of(sewn, piece);
@@ -220,19 +214,16 @@ fn well_sewn(pieces: &[Piece], sewn: &Sewn) -> Vec<bool> {
     (0..pieces.len()).map(is_well_sewn).collect()
 }
 
-/// Edges of both sides of a seam.
 fn edges_of(seam: &ProposedSeam) -> impl Iterator<Item = &String> {
     seam.entry.a.iter().chain(&seam.entry.b)
 }
 
-/// A seam with the pieces that it joins.
 struct JoinedSeam<'s> {
     seam: &'s ProposedSeam,
-    /// Index of the piece of each edge.
+    /// One for each edge.
     pieces: Vec<usize>,
 }
 
-/// Seams of a piece, each with the pieces that it joins.
 fn seams_of(sewn: &Sewn, piece: usize) -> Vec<JoinedSeam<'_>> {
     let drawn = |edge: &String| {
         let id = edge.split_once('.').map(|(id, _)| id);
@@ -242,7 +233,6 @@ fn seams_of(sewn: &Sewn, piece: usize) -> Vec<JoinedSeam<'_>> {
     sewn.seams.iter().map(joined).filter(|joined| joined.pieces.contains(&piece)).collect()
 }
 
-/// Kind of piece whose templates fit best, with the score.
 fn best_of(shape: &Shape, classes: &[Class]) -> (Class, f64) {
     let fit = |class: Class| {
         let is_one = |template: &Template| template.class == class && !template.is_panel();

@@ -5,17 +5,16 @@ use geom::V2;
 use geom::polyline::boundary_distance;
 use geom::units::mm;
 
-/// Distance below which a line ends on the outline, or meets another, m.
+/// Distance below which a line ends on the outline, or meets another.
 const MEET_M: f64 = 1e-3;
 /// Greatest relative length difference between both sides of a dart.
 const UNLIKE: f64 = 0.04;
 /// Greatest mouth of a dart, as a share of its sides.
 const WIDEST: f64 = 0.7;
-/// Least mouth and least side of a dart, m.
+/// Least mouth and least side of a dart.
 const LEAST_M: [f64; 2] = [4e-3, 30e-3];
 
-/// Widths of the mouths of the darts that are drawn inside a piece, m. Their tips lie inside, and their sides end on the
-/// outline.
+/// Widths of the darts drawn inside a piece: their tips lie inside, and their sides end on the outline.
 pub fn mouths_m(piece: &Piece) -> Vec<f64> {
     let outline = piece.seam_outline();
     let is_on = |p: &V2| boundary_distance(outline, p) < MEET_M;
@@ -51,7 +50,7 @@ pub fn mouths_m(piece: &Piece) -> Vec<f64> {
     pairs.filter_map(mouth).collect()
 }
 
-/// Question about the darts that are drawn inside a piece. `None` without any.
+/// `None` without darts drawn inside the piece.
 pub fn doubt(name: &str, piece: &Piece) -> Option<String> {
     let mouths = mouths_m(piece);
     let widths: Vec<String> = mouths.iter().map(|m| format!("{:.0} mm", mm(*m))).collect();

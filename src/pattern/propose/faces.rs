@@ -13,11 +13,10 @@ const COMPARED: f64 = 0.75;
 /// Least difference of two outlines that tells front from back, as a share of the longer side of the piece.
 const LEAST_DIFFERENCE: f64 = 0.01;
 
-/// Least difference of the waists at which a skirt contradicts both names of its halves, m. Nobody eases in as much by
-/// chance.
+/// Difference at which a skirt contradicts both names of its halves. Nobody eases in as much by chance.
 const CLEAR_WAIST_M: f64 = 10e-3;
 
-/// Least such difference if only one half has a name, m: the precision of drawn outlines.
+/// Least such difference if only one half has a name: the precision of drawn outlines.
 const ANY_WAIST_M: f64 = 0.1e-3;
 
 /// Tells front from back of two pieces of a kind that have no other evidence: the front neck is deeper, and the back
@@ -69,7 +68,6 @@ pub fn doubt_faces(class: Class, pieces: &[Piece], named: &[Named], found: &mut 
     }
 }
 
-/// Front and back, of two pieces. `None` unless there is one of each.
 fn front_and_back(found: &[Recognised], two: &[usize]) -> Option<[usize; 2]> {
     let &[first, second] = two else { return None };
     match [first, second].map(|i| found[i].face) {

@@ -4,7 +4,7 @@ use super::*;
 use crate::style::Style;
 use geom::V2;
 
-/// A piece in mm. The third number of a vertex is 1 for a corner.
+/// Takes vertices in mm; their third number is 1 for a corner.
 pub(super) fn piece(name: &str, vertices: &[(f64, f64, u8)]) -> Piece {
     let place = |&(x, y, _): &(f64, f64, u8)| V2::new(x, y) * 1e-3;
     Piece {
@@ -20,7 +20,6 @@ pub(super) fn strip(name: &str, length: f64, width: f64) -> Piece {
     piece(name, &[(0.0, 0.0, 1), (length, 0.0, 1), (length, width, 1), (0.0, width, 1)])
 }
 
-/// Half front, half back without shoulders, half yoke, sleeve and cuff of a shirt.
 fn shirt() -> Vec<Piece> {
     let front =
         [(0.0, 0.0, 1), (260.0, 0.0, 1), (260.0, 420.0, 1), (215.0, 440.0, 0), (195.0, 500.0, 0), (190.0, 560.0, 0)];
@@ -40,7 +39,7 @@ fn shirt() -> Vec<Piece> {
     ]
 }
 
-/// A sleeve, wider than the armholes require by a factor.
+/// `wide` is the width over what the armholes require.
 fn sleeve(wide: f64) -> Piece {
     let cap = [(380.0, 300.0, 1), (290.0, 340.0, 0), (230.0, 400.0, 0), (180.0, 420.0, 0)];
     let rest = [(130.0, 400.0, 0), (70.0, 340.0, 0), (-20.0, 300.0, 1)];
@@ -49,7 +48,7 @@ fn sleeve(wide: f64) -> Piece {
     piece("SLEEVE", &all)
 }
 
-/// Half front and half back of trousers, the back up to a waist at a given height, mm.
+/// Half front and half back; `back_waist` is the height of the back, mm.
 pub(super) fn legs(back_waist: f64) -> Vec<Piece> {
     let crotch = [(85.0, 850.0, 0), (60.0, 790.0, 0), (10.0, 770.0, 1)];
     let front = [&[(60.0, 0.0, 1), (280.0, 0.0, 1), (300.0, 1000.0, 1), (90.0, 1000.0, 1)][..], &crotch].concat();
@@ -64,8 +63,7 @@ fn seam<'p>(proposal: &'p Proposal, name: &str) -> &'p ProposedSeam {
     proposal.seams.iter().find(|seam| seam.entry.name == name).unwrap_or_else(|| panic!("no {name} in {:?}", all()))
 }
 
-/// Style of the part that is draped without questions. Once it is sewn, no piece meets itself, except where `closed`
-/// says so.
+/// Drapes without questions. Once it is sewn, no piece meets itself, except where `closed` says so.
 fn draped(pieces: &[Piece], closed: &[&str]) -> Proposal {
     let proposal = propose(pieces).to_drape().expect("it can be worn");
     let style = Style::read(pieces, proposal.toml("x").as_bytes(), "x").expect("a style");
@@ -271,7 +269,6 @@ fn gores_are_sewn_all_round_and_to_their_band() {
     check(&banded, 8, &["waist_back_1", "waist_front_1", "waistband_left", "waistband_right"]);
 }
 
-/// Pieces mirrored left to right, so that those drawn for one side of the wearer are drawn for the other.
 fn mirrored(name: &str, vertices: &[(f64, f64, u8)]) -> Piece {
     let turned: Vec<(f64, f64, u8)> = vertices.iter().rev().map(|&(x, y, corner)| (-x, y, corner)).collect();
     piece(name, &turned)
@@ -332,7 +329,7 @@ fn without_its_sleeves_a_raglan_cannot_be_worn() {
     assert!(reason.contains("raglan_front_right"), "{reason}");
 }
 
-/// Half a front cut by a princess seam from the shoulder or from the armhole, its middle first, and a half back.
+/// Half a front cut by a princess seam from the shoulder or the armhole, its middle first, and a half back.
 fn princess(from_shoulder: bool) -> [Piece; 3] {
     let neck = [(80.0, 690.0, 1), (70.0, 640.0, 0), (40.0, 615.0, 0), (0.0, 605.0, 1), (0.0, 0.0, 1), (120.0, 0.0, 1)];
     let (middle, side) = if from_shoulder {

@@ -9,25 +9,21 @@ use crate::piece::Piece;
 use crate::trade::Named;
 use geom::polyline::{perimeter, signed_area};
 
-/// Fewest gores of a skirt.
 const LEAST: u32 = 3;
 /// Greatest plausible quantity.
 const MOST: u32 = 40;
 /// Greatest relative difference of area and of perimeter between equal panels.
 const ALIKE: f64 = 0.05;
 
-/// Number of copies of a piece: as drawn, and as its mirror image.
+/// Number of copies of a piece.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cut {
-    /// Number of copies as drawn.
     pub plain: u32,
-    /// Number of mirrored copies.
     pub mirrored: u32,
 }
 
 impl Cut {
-    /// Parses a quantity of pattern files: one number, or the numbers of left and right. A missing or zero quantity is
-    /// one.
+    /// Parses one number, or the numbers of left and right. A missing or zero quantity is one.
     fn of(piece: &Piece) -> Self {
         let text = piece.quantity.as_deref().unwrap_or_default();
         let mut numbers = text.split(|c: char| !c.is_ascii_digit()).filter_map(|number| number.parse().ok());
@@ -37,12 +33,11 @@ impl Cut {
         }
     }
 
-    /// Total number of copies.
     pub fn times(self) -> u32 {
         self.plain.saturating_add(self.mirrored)
     }
 
-    /// Copies in the order of sewing: true for a mirrored one.
+    /// Yields true for a mirrored copy, in the order of sewing.
     pub fn copies(self) -> impl Iterator<Item = bool> {
         // Pairs alternate, so that equal sides meet.
         let is_pair = self.plain == self.mirrored;
@@ -50,7 +45,7 @@ impl Cut {
     }
 }
 
-/// Quantities of the pieces that are gores. `None` for any other piece.
+/// `None` for a piece that is no gore.
 pub fn gores(pieces: &[Piece], named: &[Named]) -> Vec<Option<Cut>> {
     let is_plain = |named: &Named| match named.class {
         Some(Class::Waistband | Class::Other) => true,

@@ -12,9 +12,7 @@ use crate::piece::Piece;
 const MOVED_SHARE: f64 = 0.2;
 /// Least gain in the sum of the confidences of all seams for which an end is moved.
 const GAIN: f64 = 0.05;
-/// Greatest number of corners by which an end of an edge is moved.
 const MOST_CORNERS: usize = 3;
-/// Greatest number of moved ends.
 const MOST_CHANGES: usize = 16;
 
 /// Moves ends of edges to other corners while this raises the confidence of the seams of the whole garment.
@@ -43,7 +41,6 @@ fn agreement(pieces: &[Piece], recognised: &[Recognised], asker: &Asker<'_>) -> 
     sew::sew(&worn, &mut asker.aside()).iter().map(|seam| seam.confidence).sum()
 }
 
-/// Variants of a piece with the end of one edge, or of two equal edges on both sides, at another corner.
 fn changes(candidate: &Recognised) -> Vec<Recognised> {
     let parts = &candidate.alignment.parts;
     let n = parts.len();
@@ -63,7 +60,7 @@ fn changes(candidate: &Recognised) -> Vec<Recognised> {
     all
 }
 
-/// Variant of a piece with the end of an edge moved by some corners, forwards if `is_longer`.
+/// Moves the end of an edge by some corners, forwards if `is_longer`.
 fn moved(candidate: &Recognised, first: usize, corners: usize, is_longer: bool) -> Option<Recognised> {
     let (shape, n) = (&candidate.shape, candidate.shape.len());
     let second = (first + 1) % candidate.alignment.parts.len();

@@ -62,28 +62,22 @@ pub use super::trade::{Class, Face, Hand};
 /// Least gain in [`Sewn::worth`] for a less likely reading of the pieces to be taken: about one seam.
 const SURER: f64 = 1.0;
 
-/// Kind of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Label {
     /// Free lower edge, or the lower edge of a bodice.
     Hem,
-    /// Side seam of the trunk or a skirt.
     Side,
-    /// Princess seam: between a side panel and the panel in the middle.
+    /// Seam between a side panel and the panel in the middle.
     Princess,
-    /// Armhole. Of a raglan, the whole edge up to the neck.
+    /// Of a raglan, the whole edge up to the neck.
     Armhole,
-    /// Seam over the shoulder.
     Shoulder,
-    /// Neckline, from shoulder to shoulder or to the centre.
+    /// From shoulder to shoulder or to the centre.
     Neck,
-    /// Centre front or back.
     Centre,
     /// Upper edge of a skirt or leg.
     Waist,
-    /// Outer side of a leg.
     Outseam,
-    /// Inner side of a leg.
     Inseam,
     /// Seat seam, from the waist to the fork.
     Crotch,
@@ -93,9 +87,7 @@ pub enum Label {
     Underarm,
     /// Upper lengthwise edge of half a sleeve.
     Top,
-    /// Lower edge of a band.
     Lower,
-    /// Short edge of a band.
     End,
 }
 
@@ -122,7 +114,7 @@ impl Label {
     }
 }
 
-/// Role of a piece. `is_bodice` is true if something is sewn to the lower edge of the trunk.
+/// `is_bodice` is true if something is sewn to the lower edge of the trunk.
 fn role_of(class: Option<Class>, face: Option<Face>, hand: Option<Hand>, is_bodice: bool) -> Role {
     match (class, face, hand) {
         // A panel between front and back is placed with the front.
@@ -155,80 +147,66 @@ fn role_of(class: Option<Class>, face: Option<Face>, hand: Option<Hand>, is_bodi
     }
 }
 
-/// Statement of the name of a piece.
 pub(super) fn said(name: &str) -> Named {
     trade::read(name)
 }
 
-/// Roles of pieces of which this is known, for files that have their seams.
 pub(super) fn roles(named: &[Named]) -> Vec<Role> {
     let is_below = |named: &Named| matches!(named.class, Some(Class::Skirt | Class::Leg | Class::Waistband));
     let is_bodice = named.iter().any(is_below);
     named.iter().map(|named| role_of(named.class, named.face, named.hand, is_bodice)).collect()
 }
 
-/// Proposed meaning of a drawn piece.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct ProposedPiece {
     /// Identifier in the seam file. `None` for a piece in no seam.
     pub id: Option<String>,
-    /// Name in the file.
     pub name: String,
-    /// Kind. `None` if the piece was not recognised.
+    /// `None` if the piece was not recognised.
     pub class: Option<Class>,
-    /// Front or back.
     pub face: Option<Face>,
-    /// Side of the wearer. `None` for a piece on both sides.
+    /// `None` for a piece on both sides.
     pub hand: Option<Hand>,
-    /// Confidence, from 0 (guessed) to 1 (certain).
+    /// From 0 (guessed) to 1 (certain).
     pub confidence: f64,
 }
 
-/// A proposed seam.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct ProposedSeam {
-    /// Entry of the seam file.
     #[serde(flatten)]
     pub entry: SeamEntry,
-    /// Kind of the seam, of which the name of the entry is the text.
     #[serde(skip)]
     pub kind: SeamKind,
-    /// Length of side `a`, mm.
     pub a_mm: f64,
-    /// Length of side `b`, mm.
     pub b_mm: f64,
-    /// Confidence, from 0 (guessed) to 1 (certain).
+    /// From 0 (guessed) to 1 (certain).
     pub confidence: f64,
 }
 
 impl ProposedSeam {
     /// Ratio of the lengths of `a` and `b`: 1 for a plain seam, more if `a` is eased or gathered.
-    #[must_use]
     pub fn ratio(&self) -> f64 {
         self.a_mm / self.b_mm
     }
 }
 
-/// A proposed seam file.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Proposal {
-    /// Meaning of every piece, in the order of the file. A piece that is cut twice occurs twice.
+    /// In the order of the file. A piece that is cut twice occurs twice.
     pub pieces: Vec<ProposedPiece>,
-    /// Seams, the surest first of each kind.
+    /// Surest first of each kind.
     pub seams: Vec<ProposedSeam>,
     /// Edges that are proposed to stay free: hems, necklines, armholes without a sleeve, waists without a band.
     pub open: Vec<String>,
-    /// Questions to the user.
     pub questions: Vec<Question>,
     /// Notes on what was left out or assumed without a question.
     pub notes: Vec<String>,
     /// Size that the proposal was made on. `None` if it was checked against no other size.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub size: Option<String>,
-    /// Seam allowance that was added to the pieces, m.
+    /// Seam allowance that was added to the pieces.
     #[serde(skip)]
     pub allowance_m: f64,
-    /// Pieces as worn.
     #[serde(skip)]
     worn: Vec<Worn>,
     /// Texts of the questions that are to be answered before anything is draped.
@@ -237,21 +215,17 @@ pub struct Proposal {
 }
 
 impl Proposal {
-    /// True if no piece was recognised.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.worn.is_empty()
     }
 }
 
 /// Proposes a seam file for the pieces of one size, half pieces unfolded ([`super::dxf::PatternFile::to_sew`]).
-#[must_use]
 pub fn propose(pieces: &[Piece]) -> Proposal {
     propose_told(pieces, &Answers::new())
 }
 
 /// Proposes as [`propose`] does, with answers of the user. Answers to questions that are not asked are ignored.
-#[must_use]
 pub fn propose_told(pieces: &[Piece], answers: &Answers) -> Proposal {
     let mut proposal = with_answers(pieces, answers);
     ask::number(&mut proposal.questions, &mut Vec::new());
@@ -260,9 +234,6 @@ pub fn propose_told(pieces: &[Piece], answers: &Answers) -> Proposal {
 
 /// Proposes as [`propose`] does, with answers of the user in the order given, each as number of the question and letter
 /// of the choice. Questions that an answer raises are numbered after the earlier ones.
-///
-/// # Errors
-/// [`UnknownAnswer`] if there is no such question or choice.
 pub fn propose_answered(pieces: &[Piece], given: &[(usize, char)]) -> Result<Proposal, UnknownAnswer> {
     let (mut answers, mut known) = (Answers::new(), Vec::new());
     let mut proposal = with_answers(pieces, &answers);
@@ -283,7 +254,6 @@ pub fn propose_answered(pieces: &[Piece], given: &[(usize, char)]) -> Result<Pro
     Ok(proposal)
 }
 
-/// Pieces as worn under one reading, and the seams between them.
 struct Sewn {
     reading: Reading,
     worn: Vec<Worn>,
@@ -317,7 +287,7 @@ fn sewn(pieces: &[Piece], named: &[Named], reading: Reading, asker: &Asker<'_>) 
     Sewn { reading, worn, seams }
 }
 
-/// Proposal with some answers. Pieces that an answer dismisses are left out, and the rest is read again.
+/// Leaves out pieces that an answer dismisses, and reads the rest again.
 fn with_answers(pieces: &[Piece], answers: &Answers) -> Proposal {
     let (mut dismissed, mut settled) = (BTreeSet::new(), Vec::new());
     loop {
@@ -333,7 +303,6 @@ fn with_answers(pieces: &[Piece], answers: &Answers) -> Proposal {
     }
 }
 
-/// Note on the pieces for which `is_it` is true. `None` without any.
 fn left_out(pieces: &[Piece], is_it: impl Fn(usize) -> bool, why: &str) -> Option<String> {
     let mut listed: Vec<String> =
         (0..pieces.len()).filter(|&k| is_it(k)).map(|k| format!("`{}`", pieces[k].name)).collect();

@@ -52,7 +52,6 @@ fn sewn_edges(proposal: &Proposal) -> Sewn {
     proposal.seams.iter().map(|seam| seam.entry.a.iter().chain(&seam.entry.b).map(drawn).collect()).collect()
 }
 
-/// Pieces of one size under other names.
 fn renamed(pieces: &[Piece], name: impl Fn(usize, &str) -> String) -> Vec<Piece> {
     let call = |(k, piece): (usize, &Piece)| {
         let name = name(k, &piece.name);
@@ -72,7 +71,7 @@ impl Proposer {
     }
 }
 
-/// Renames the pieces of a model in all ways, and compares each proposal with that for their own names.
+/// Renames the pieces in all ways, and compares each proposal with that for their own names.
 fn check(model: Model) {
     let drafts = model.drafts();
     let pieces = &drafts[drafts.len() / 2].pieces;

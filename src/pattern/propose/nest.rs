@@ -12,12 +12,11 @@ use crate::size_order;
 use crate::style::{Seam, Style};
 use geom::units::mm;
 
-/// Greatest length difference between both sides of a plain seam, mm: an eighth of an inch, the usual sewing tolerance.
+/// Greatest difference of the sides of a plain seam: an eighth of an inch, the usual sewing tolerance.
 const PLAIN_MM: f64 = 3.0;
 /// The same for a long seam, as a share of its length: cloth takes up as much without a pleat.
 const PLAIN_SHARE: f64 = 0.02;
 
-/// Style that the proposal makes in one size.
 struct Sewn<'a> {
     size: &'a str,
     style: Style,
@@ -73,13 +72,12 @@ impl Proposal {
         doubt(seam, sewn, &sides_mm, &doubted)
     }
 
-    /// Adds a question without choices about some edges.
     fn tell(&mut self, text: String, about: Vec<String>) {
         let number = self.questions.iter().map(|question| question.number).max().unwrap_or(0) + 1;
         self.questions.push(Question { number, about, ..Question::told(text) });
     }
 
-    /// Style of another size, whatever the length differences of its seams.
+    /// Builds another size, whatever the length differences of its seams.
     fn on(&self, pieces: &[Piece]) -> Result<Style, StyleError> {
         let mut entries = self.seam_file("");
         entries.length_tolerance_mm = f64::INFINITY;
@@ -114,7 +112,6 @@ fn doubted_sizes(sides_mm: &[[f64; 2]], made_on: usize) -> Vec<bool> {
     doubted
 }
 
-/// Question about a seam that is doubtful in some sizes. `None` without such a size.
 fn doubt(seam: &ProposedSeam, sewn: &[Sewn<'_>], sides_mm: &[[f64; 2]], doubted: &[bool]) -> Option<String> {
     let first = doubted.iter().position(|is_doubted| *is_doubted)?;
     let doubted_ones = sewn.iter().zip(doubted).filter(|(_, is_doubted)| **is_doubted);
@@ -130,7 +127,6 @@ fn doubt(seam: &ProposedSeam, sewn: &[Sewn<'_>], sides_mm: &[[f64; 2]], doubted:
     ))
 }
 
-/// Questions, one for every two sizes between which lengths leap.
 fn doubted_leaps(sewn: &[Sewn<'_>]) -> Vec<String> {
     let sizes: Vec<String> = sewn.iter().map(|sized| sized.size.to_owned()).collect();
     let styles: Vec<&Style> = sewn.iter().map(|sized| &sized.style).collect();
@@ -148,7 +144,6 @@ fn doubted_leaps(sewn: &[Sewn<'_>]) -> Vec<String> {
     by_sizes.iter().map(told).collect()
 }
 
-/// Lengths of both sides of a seam, mm.
 fn lengths_mm(style: &Style, seam: &Seam) -> [f64; 2] {
     [&seam.a, &seam.b].map(|chain| chain.iter().map(|&edge| mm(style.edge(edge).line.length())).sum())
 }

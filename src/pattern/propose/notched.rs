@@ -8,22 +8,19 @@ const SAME_SHARE: f64 = 0.03;
 /// Least difference in agreement between both directions that decides between them.
 const CLEAR: f64 = 0.3;
 
-/// A side of a seam: edges in order.
 type Side<'w> = [Along<'w>];
 
-/// Evidence of the notches of two sides for a seam between them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Evidence {
-    /// Notches match as proposed: better than reversed, or all of them.
+    /// Notches match better than reversed, or all of them.
     For,
     /// Notches match better with one side reversed.
     Turned,
-    /// No evidence: too few notches, or a match in neither direction.
+    /// Too few notches, or a match in neither direction.
     None,
 }
 
-/// Evidence of the notches of side `a`, walked counter-clockwise, and of side `b`, walked clockwise.
-#[must_use]
+/// Side `a` is walked counter-clockwise, side `b` clockwise.
 pub fn evidence(a: &Side<'_>, b: &Side<'_>) -> Evidence {
     let (a, b) = (shares(a, true), shares(b, false));
     if a.is_empty() || b.is_empty() {
@@ -54,7 +51,6 @@ fn agreement(a: &[f64], b: &[f64]) -> f64 {
     2.0 * f64::from(matched) / (a.len() + b.len()) as f64
 }
 
-/// Positions of the notches along a side in the direction of the walk, as shares of its length.
 fn shares(side: &Side<'_>, is_forwards: bool) -> Vec<f64> {
     let total = length(side);
     let mut shares = Vec::new();
@@ -70,7 +66,6 @@ fn shares(side: &Side<'_>, is_forwards: bool) -> Vec<f64> {
 
 /// Arm for which a whole sleeve is drawn whose name gives none, by the notches of cap and armhole. `worn` has it as the
 /// right sleeve. `None` if the notches do not decide.
-#[must_use]
 pub fn drawn_sleeve(worn: &[Worn]) -> Option<Hand> {
     let right = Some(Hand::Right);
     let cap = worn.iter().find(|worn| worn.class == Class::Sleeve && worn.is_whole && worn.hand == right)?;
@@ -92,8 +87,7 @@ pub fn drawn_sleeve(worn: &[Worn]) -> Option<Hand> {
     })
 }
 
-/// Arm for which a raglan sleeve is drawn: lengths of its right and left side compared with those of front and back, m.
-/// `None` if they do not decide.
+/// Compares a raglan sleeve's lengths with those of front and back, m. `None` if they do not decide.
 fn by_lengths([right, left]: [f64; 2], [front, back]: [f64; 2]) -> Option<Hand> {
     let as_right = (right - front).abs() + (left - back).abs();
     let as_left = (right - back).abs() + (left - front).abs();
@@ -101,7 +95,7 @@ fn by_lengths([right, left]: [f64; 2], [front, back]: [f64; 2]) -> Option<Hand> 
     is_clear.then_some(if as_right < as_left { Hand::Right } else { Hand::Left })
 }
 
-/// Length of a side, m.
+/// In m.
 fn length(side: &Side<'_>) -> f64 {
     side.iter().map(|along| along.edge.length).sum()
 }

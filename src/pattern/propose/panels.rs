@@ -7,17 +7,15 @@ use super::{Class, Face, Label};
 use crate::piece::Piece;
 use crate::trade::Named;
 
-/// A panel of a front or back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Panel {
     /// [`Class::Body`] between the princess seams, [`Class::SidePanel`] outside.
     pub class: Class,
-    /// True if the seam begins at the shoulder, false if at the armhole.
+    /// False for a seam that begins at the armhole.
     from_shoulder: bool,
 }
 
 impl Panel {
-    /// True for a template of this panel.
     pub fn fits(self, template: &Template) -> bool {
         let begins_at_shoulder = match self.class {
             Class::SidePanel => template.has_shoulder(),
@@ -30,9 +28,8 @@ impl Panel {
 /// Greatest relative length difference between both sides of a princess seam, into which at most the bust is eased.
 const UNLIKE: f64 = 0.08;
 
-/// Panel that each piece is. `None` for any other piece.
-///
-/// There are no panels if a face has one piece, or if two of its pieces fit a whole or half front or back better.
+/// `None` for a piece that is no panel. There are no panels if a face has one piece, or if two of its pieces fit a
+/// whole or half front or back better.
 pub fn panels(pieces: &[Piece], named: &[Named]) -> Vec<Option<Panel>> {
     let mut found = vec![None; pieces.len()];
     for face in Face::BOTH {
@@ -53,14 +50,13 @@ pub fn panels(pieces: &[Piece], named: &[Named]) -> Vec<Option<Panel>> {
     found
 }
 
-/// Middle panel and side panel.
 struct PanelPair {
     /// Advantage in fit over whole pieces or halves.
     gain: f64,
     panels: [Panel; 2],
 }
 
-/// Two outlines as middle and side panel of a front or back. `None` if they do not fit together.
+/// Middle and side panel. `None` if they do not fit together.
 fn together(outlines: [&Shape; 2]) -> Option<PanelPair> {
     let of_trunk = |template: &Template| template.class == Class::Body && !template.is_panel();
     let plain: f64 = outlines.into_iter().filter_map(|shape| upright(shape, of_trunk)).map(|found| found.score).sum();
@@ -79,7 +75,7 @@ fn together(outlines: [&Shape; 2]) -> Option<PanelPair> {
     [true, false].into_iter().filter_map(from).max_by(|a, b| a.gain.total_cmp(&b.gain)).filter(|pair| pair.gain > 0.0)
 }
 
-/// Length of the princess seam on one side, m. `None` without such a seam.
+/// `None` without a princess seam.
 fn seam_m(shape: &Shape, alignment: &Alignment) -> Option<f64> {
     let part = alignment.parts.iter().find(|part| part.label == Label::Princess)?;
     Some(shape.sewn_length(part.from, part.span))

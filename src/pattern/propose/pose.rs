@@ -9,22 +9,20 @@ use crate::style::{Edge, StylePiece};
 use crate::trade::{self, PartName};
 use geom::V2;
 
-/// Pose of a drawn piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
-    /// Number of quarter turns, counter-clockwise, that set the piece upright.
+    /// Counter-clockwise, to set the piece upright.
     pub quarter_turns: usize,
     /// True if the piece covers both sides of the body, or goes round the arm.
     pub is_whole: bool,
     /// True if the outer side is on the left of the upright drawing. Without meaning for a whole piece.
     is_mirrored: bool,
-    /// Score of the fit of the template, at most 1, less the penalty for a grain across the piece.
+    /// Fit of the template, at most 1, less the penalty for a grain across the piece.
     pub score: f64,
 }
 
 impl Pose {
-    /// Side of the wearer that half a front or back covers, as seen from outside. `None` for a whole piece.
-    #[must_use]
+    /// Side as seen from outside. `None` for a whole piece.
     pub fn hand(&self, face: Face) -> Option<Hand> {
         (!self.is_whole).then(|| natural_hand(face, self.is_mirrored))
     }
@@ -36,9 +34,7 @@ pub fn natural_hand(face: Face, is_mirrored: bool) -> Hand {
     if (face == Face::Back) == is_mirrored { Hand::Left } else { Hand::Right }
 }
 
-/// Pose of a piece by the best template of its role. `None` for a role without templates, or an outline without
-/// corners.
-#[must_use]
+/// Takes the best template of the role. `None` for a role without templates, or an outline without corners.
 pub fn pose(piece: &StylePiece) -> Option<Pose> {
     let said = trade::read(&piece.id);
     let is_yoke = said.class == Some(Class::Yoke);
@@ -104,8 +100,8 @@ pub fn pose(piece: &StylePiece) -> Option<Pose> {
     })
 }
 
-/// Pose of a piece by the names of its edges: a hem is below and a cap above, whatever the outline looks like. `None`
-/// if fewer than two kinds of edges are named as in the templates.
+/// Takes a hem to be below and a cap above, whatever the outline looks like. `None` if fewer than two kinds of edges
+/// are named as in the templates.
 fn by_edges<'t>(piece: &StylePiece, templates: impl Iterator<Item = &'t Template>) -> Option<Pose> {
     let named: Vec<(Label, V2)> =
         piece.edges.iter().filter_map(|edge| Some((label_of(edge.name.as_deref()?)?, middle(edge)))).collect();
@@ -142,7 +138,7 @@ fn by_edges<'t>(piece: &StylePiece, templates: impl Iterator<Item = &'t Template
     best
 }
 
-/// Kind of edge at the beginning of a name. `None` for another name.
+/// Reads the beginning of a name. `None` for another name.
 fn label_of(name: &str) -> Option<Label> {
     use Label::{
         Armhole, Cap, Centre, Crotch, End, Hem, Inseam, Lower, Neck, Outseam, Princess, Shoulder, Side, Top, Underarm,
@@ -154,7 +150,7 @@ fn label_of(name: &str) -> Option<Label> {
     body.into_iter().chain(limbs).find(|label| label.as_str() == word)
 }
 
-/// Midpoint of an edge by length.
+/// Midpoint by length.
 fn middle(edge: &Edge) -> V2 {
     let half = 0.5 * edge.line.length();
     let k = edge.line.arcs().partition_point(|&arc| arc < half).clamp(1, edge.line.points().len() - 1);
@@ -162,8 +158,6 @@ fn middle(edge: &Edge) -> V2 {
     edge.line.points()[k - 1].lerp(&edge.line.points()[k], (half - from) / (to - from).max(f64::MIN_POSITIVE))
 }
 
-/// Front or back, and side of the wearer, by a name.
-#[must_use]
 pub fn named_face_and_hand(name: &str) -> (Option<Face>, Option<Hand>) {
     let named = trade::read(name);
     (named.face, named.hand)

@@ -36,10 +36,8 @@ const SAME_INSEAM: f64 = 0.03;
 pub const CONTRADICTED: f64 = 0.25;
 /// Factor on the confidence if the outline contradicts the name, or another kind fits nearly as well.
 const DOUBTED: f64 = 0.5;
-/// Difference in score from which two kinds are clearly distinct.
 const CLEAR_MARGIN: f64 = 0.15;
 
-/// Evidence of the other pieces of a file about a piece.
 #[derive(Clone, Copy)]
 struct Around {
     /// True if there is a sleeve, collar or hood: nameless pieces are then no legs.
@@ -48,20 +46,17 @@ struct Around {
     has_yoke: bool,
     /// True if there is a trunk: a yoke then lies over the shoulders.
     has_trunk: bool,
-    /// True if sleeves reach the neck.
     is_raglan: bool,
     /// True if no leg is called front or back.
     has_lone_leg: bool,
-    /// Possible kinds of nameless pieces.
     nameless: &'static [Class],
 }
 
 /// Assumptions under which all pieces of a file are read.
 #[derive(Clone, Copy)]
 pub struct Reading {
-    /// Possible kinds of nameless pieces. Of equal scores the first kind counts.
+    /// Possible kinds. Of equal scores the first kind counts.
     pub nameless: &'static [Class],
-    /// True if sleeves reach the neck.
     pub is_raglan: bool,
 }
 
@@ -79,7 +74,7 @@ impl Reading {
     }
 }
 
-/// Place of a piece among others, known before its outline is read.
+/// Facts about a piece that are known before its outline is read.
 #[derive(Clone, Copy)]
 struct Among {
     gore: Option<Cut>,
@@ -88,19 +83,15 @@ struct Among {
     pair: Option<Class>,
 }
 
-/// Piece to recognise.
 #[derive(Clone, Copy)]
 struct Subject<'p> {
-    /// Index of the piece.
     index: usize,
-    /// Name, for questions.
     name: &'p str,
     piece: &'p Piece,
-    /// Statement of the name.
     named: Named,
 }
 
-/// Recognises pieces. Each piece that is left out becomes a question, except details.
+/// Asks about each piece that it leaves out, except details.
 pub fn recognise(
     pieces: &[Piece],
     named: &[Named],
@@ -175,7 +166,6 @@ pub fn recognise(
     found
 }
 
-/// True if a name gives front or back, but no kind.
 fn is_nameless_face(named: Named) -> bool {
     named.class.is_none() && named.face.is_some()
 }
@@ -219,7 +209,6 @@ fn class_of_pair(pieces: &[Piece], named: &[Named], has_sleeve: bool, is_raglan:
     (sum >= 2.0 * LEAST_FIT).then_some(class)
 }
 
-/// Possible answers about a piece of unknown kind.
 const KINDS: [(Class, Option<Face>); 10] = [
     (Class::Body, Some(Face::Front)),
     (Class::Body, Some(Face::Back)),
@@ -232,7 +221,6 @@ const KINDS: [(Class, Option<Face>); 10] = [
     (Class::Cuff, None),
     (Class::SidePanel, None),
 ];
-/// Number of kinds that are offered as answers: those that fit best.
 const OFFERED: usize = 3;
 
 /// Asks for the kind of a piece that neither name nor outline shows. Without an answer the piece is left out.
@@ -269,7 +257,7 @@ fn ask_kind(
     Some(kinds.swap_remove(choice).1)
 }
 
-/// Recognises one piece. The error says why its kind is unknown.
+/// The error says why the kind is unknown.
 fn recognise_one(
     subject: Subject<'_>,
     around: Around,
@@ -399,7 +387,7 @@ fn halved_armhole(shape: Shape, mut alignment: Alignment) -> (Shape, Alignment) 
     (shape, alignment)
 }
 
-/// Alignment of an outline as a leg in one piece, whose two inseam edges are equally long. `None` for another outline.
+/// Takes a leg whose two inseam edges are equally long. `None` for another outline.
 fn whole_leg(shape: &Shape) -> Option<Alignment> {
     let whole = upright(shape, |template| template.class == Class::Leg && template.is_limb())?;
     let inseams = whole.parts.iter().filter(|part| part.label == Label::Inseam);

@@ -5,91 +5,63 @@ use std::fmt;
 
 use super::{Face, Hand};
 
-/// Kind of a proposed seam: the edges that it joins.
+/// Kind of a proposed seam, by the edges that it joins.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SeamKind {
-    /// The two edges of a dart.
     Dart {
-        /// Identifier of the piece.
         piece: String,
-        /// Number of the dart, from 1.
+        /// From 1.
         number: usize,
     },
-    /// Front to back of the trunk, from hem to armhole.
     Side(Hand),
     /// Front or back to the side panel between them.
     SideOf(Face, Hand),
-    /// Front to back, from neck to armhole.
     Shoulder(Hand),
-    /// Middle of a front or back to its side panel.
     Princess(Face, Hand),
-    /// Left to right half of a front or back.
     Centre(Face),
     /// A yoke over the shoulders to the pieces that hang from it.
     Yoke(Face),
-    /// Left to right half of a yoke.
     YokeCentre(Face),
-    /// A sleeve to its armhole.
     Armhole(Hand),
-    /// A raglan sleeve to front or back.
     Raglan(Face, Hand),
-    /// A whole sleeve to itself.
     Underarm(Hand),
-    /// Halves of a sleeve above the arm.
     SleeveTop(Hand),
-    /// Halves of a sleeve below the arm.
     SleeveUnderarm(Hand),
-    /// A sleeve to its cuff.
     Cuff(Hand),
-    /// Half a sleeve to half a cuff.
     CuffHalf(Face, Hand),
-    /// A whole cuff to itself.
     CuffEnds(Hand),
     /// Halves of a cuff. The second hand is the end of the front half.
     CuffSide(Hand, Hand),
-    /// A collar to the neckline.
     Collar,
-    /// Left to right half of a collar.
     CollarBack,
-    /// A band round the neck to itself.
+    /// Band round the neck to itself.
     CollarEnds,
-    /// Front to back of a leg, outside.
     Outseam(Hand),
-    /// Front to back of a leg, inside.
     Inseam(Hand),
-    /// Right to left leg.
     Crotch(Face),
-    /// Front to back of a skirt.
     SkirtSide(Hand),
-    /// A skirt of one piece to itself.
     SkirtRound,
-    /// A gore to the next one, with its number, from 1.
+    /// Gore to the next one, with its number, from 1.
     Gore(usize),
-    /// Left to right half of a skirt.
     SkirtCentre(Face),
     /// Upper to lower pieces of front or back, with the number of the seam, from 1 at the top.
     WaistLevel(Face, usize),
-    /// A waistband to the pieces below it, of one side or all round.
+    /// Pieces below it. `None` for a band all round.
     Waist(Option<Hand>),
-    /// A waistband to the pieces above it, of one side or all round.
+    /// Pieces above it. `None` for a band all round.
     WaistAbove(Option<Hand>),
-    /// A waistband to itself.
     Waistband,
-    /// Front to back of a waistband.
     WaistbandSide(Hand),
-    /// Left to right half of a waistband.
     WaistbandCentre(Face),
 }
 
 impl SeamKind {
-    /// Text of the kind without the side of the wearer.
     pub(super) fn on_either_side(&self) -> String {
         let name = self.to_string();
         ["_right", "_left"].into_iter().fold(name, |name, side| name.replace(side, ""))
     }
 
     /// True for two halves that join at the centre: by a seam, an opening or a fold.
-    #[must_use]
     pub fn is_centre(&self) -> bool {
         matches!(self, Self::Centre(_) | Self::YokeCentre(_) | Self::SkirtCentre(_))
     }

@@ -28,12 +28,9 @@ const NOTCHED_GAIN: f64 = 0.4;
 /// Factor on the confidence in a seam whose notches match better reversed.
 const NOTCHED_DOUBT: f64 = 0.6;
 
-/// A chain of edges in order.
 pub(super) type Chain<'w> = Vec<Along<'w>>;
-/// Kind of piece, label of its edges, and kind of the seam that joins them on a hand or face.
 type Joined<Place> = (Class, Label, fn(Place) -> SeamKind);
 
-/// Proposes the seams of a garment.
 pub fn sew(worn: &[Worn], asker: &mut Asker<'_>) -> Vec<ProposedSeam> {
     let mut tailor = Tailor::new(worn, asker);
     tailor.darts();
@@ -55,7 +52,7 @@ pub fn sew(worn: &[Worn], asker: &mut Asker<'_>) -> Vec<ProposedSeam> {
     tailor.seams
 }
 
-/// Names of the edges in no seam that are probably openings.
+/// Names of edges that are in no seam and probably openings.
 pub fn open(worn: &[Worn], seams: &[ProposedSeam]) -> Vec<String> {
     let is_sewn = |name: &String| seams.iter().any(|seam| seam.entry.a.contains(name) || seam.entry.b.contains(name));
     let may_be_open = |label: Label| {
@@ -68,27 +65,24 @@ pub fn open(worn: &[Worn], seams: &[ProposedSeam]) -> Vec<String> {
     edges.filter(|name| !is_sewn(name)).collect()
 }
 
-/// Seams of a garment as they are found.
 pub(super) struct Tailor<'w, 'q, 'a> {
     pub worn: &'w [Worn],
     seams: Vec<ProposedSeam>,
     pub asker: &'q mut Asker<'a>,
 }
 
-/// Question about a seam between two halves.
 fn centre_question(kind: &SeamKind) -> String {
     format!("{kind}: a seam, a fold, or an opening?")
 }
 
 impl<'w, 'q, 'a> Tailor<'w, 'q, 'a> {
-    /// Tailor of some pieces, with no seam yet.
     pub fn new(worn: &'w [Worn], asker: &'q mut Asker<'a>) -> Self {
         Self { worn, seams: Vec::new(), asker }
     }
 }
 
 impl<'w> Tailor<'w, '_, '_> {
-    /// Piece of a kind, front or back and side. A whole piece serves both sides.
+    /// A whole piece serves both sides.
     pub fn find(&self, class: Class, face: Option<Face>, hand: Hand) -> Option<&'w Worn> {
         self.worn
             .iter()
@@ -158,7 +152,6 @@ impl<'w> Tailor<'w, '_, '_> {
         }
     }
 
-    /// Joins front and back: side, shoulder, outseam, inseam, and the lengthwise edges of half sleeves and bands.
     fn sides(&mut self, hand: Hand) {
         let pairs: [Joined<Hand>; 8] = [
             (Class::Body, Label::Side, SeamKind::Side),
@@ -231,7 +224,6 @@ impl<'w> Tailor<'w, '_, '_> {
         }
     }
 
-    /// Joins side panels to the panel between them.
     fn princess(&mut self, hand: Hand) {
         for face in Face::BOTH {
             let piece_of = |class: Class| self.find(class, Some(face), hand);
@@ -242,7 +234,6 @@ impl<'w> Tailor<'w, '_, '_> {
         }
     }
 
-    /// Joins a raglan sleeve to the front and the back.
     fn raglan(&mut self, sleeve: &'w Worn, hand: Hand) {
         for (face, side) in [(Face::Front, hand), (Face::Back, hand.other())] {
             let Some(body) = self.find(Class::Body, Some(face), hand) else { continue };
@@ -251,7 +242,6 @@ impl<'w> Tailor<'w, '_, '_> {
         }
     }
 
-    /// Joins a sleeve to itself and to its armhole.
     fn sleeve(&mut self, hand: Hand) {
         let whole =
             self.worn.iter().find(|worn| worn.class == Class::Sleeve && worn.is_whole && worn.hand == Some(hand));
@@ -294,7 +284,6 @@ impl<'w> Tailor<'w, '_, '_> {
         self.add(SeamKind::Armhole(hand), cap, armhole, &pieces, EASED_DOUBT);
     }
 
-    /// Joins legs in one piece to themselves and to each other.
     fn whole_legs(&mut self) {
         let legs = Hand::BOTH.map(|hand| self.whole_leg(hand));
         for (hand, leg) in Hand::BOTH.into_iter().zip(legs) {
@@ -311,12 +300,10 @@ impl<'w> Tailor<'w, '_, '_> {
         }
     }
 
-    /// Leg in one piece of a side.
     pub fn whole_leg(&self, hand: Hand) -> Option<&'w Worn> {
         self.worn.iter().find(|worn| worn.class == Class::Leg && worn.is_whole && worn.hand == Some(hand))
     }
 
-    /// Joins cuffs to sleeves and to themselves, also in halves.
     fn cuff(&mut self, hand: Hand) {
         let halves = Face::BOTH
             .map(|face| (self.find(Class::Cuff, Some(face), hand), self.find(Class::Sleeve, Some(face), hand)));
@@ -343,7 +330,6 @@ impl<'w> Tailor<'w, '_, '_> {
         }
     }
 
-    /// Joins the left and right half of the same face.
     fn centre(&mut self, face: Face) {
         let halves: [Joined<Face>; 4] = [
             (Class::Body, Label::Centre, SeamKind::Centre),

@@ -4,20 +4,19 @@ use crate::piece::Piece;
 use crate::style::corners::corner_vertices;
 use geom::V2;
 
-/// Turning angle to the right from which a corner is the apex of a dart, degrees.
+/// Turning angle to the right from which a corner is the apex of a dart.
 const APEX_TURN_DEG: f64 = 120.0;
 /// Greatest relative length difference between both edges of a dart.
 const LEG_DIFFERENCE: f64 = 0.04;
 /// Greatest mouth of a dart, as a share of its edges. A wider one is a V-neck.
 const WIDEST_MOUTH: f64 = 0.7;
-/// Least length of the edges of a dart, m.
 const LEAST_LEG_M: f64 = 20e-3;
-/// Turning angle from which a marked point is a corner whatever its neighbours, degrees. A curve of 30 mm radius, the
-/// narrowest of an armhole or a neck, turns by 19 degrees per centimetre.
+/// Turning angle from which a marked point is a corner whatever its neighbours. A curve of 30 mm radius, the narrowest
+/// of an armhole or a neck, turns by 19 degrees per centimetre.
 const CLEAR_TURN_DEG: f64 = 20.0;
 /// Least share of the turning angle of a vertex by which its neighbour on the same curve turns.
 const SAME_CURVE: f64 = 0.5;
-/// Growth of the mouth of a dart that does not count, m.
+/// Growth of the mouth of a dart that does not count.
 const LEAST_STEP_M: f64 = 1e-3;
 /// Greatest distance of a corner from the mirror image of its partner in a symmetric outline, as a share of the size.
 const MIRRORED: f64 = 0.003;
@@ -29,45 +28,39 @@ const MOST_CORNERS: usize = 100;
 /// Sewn outline, divided at its corners.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
-    /// Vertices of the outline, counter-clockwise, m.
+    /// Counter-clockwise, m.
     outline: Vec<V2>,
-    /// Corners as vertex indices, counter-clockwise: those of [`corner_vertices`] that do not lie on a curve.
+    /// Vertex indices, counter-clockwise: those of [`corner_vertices`] that do not lie on a curve.
     corners: Vec<usize>,
-    /// Darts cut into the outline.
     darts: Vec<Dart>,
-    /// Grain line, as drawn. `None` if none is drawn.
+    /// As drawn. `None` if none is drawn.
     grain: Option<V2>,
 }
 
-/// A dart in an outline: as many edges before its apex as after it.
+/// Dart with as many edges before its apex as after it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dart {
-    /// Corner at the tip.
     pub apex: usize,
-    /// Number of edges on each side of the apex: one, or several if the dart narrows again towards the edge that it is
-    /// cut into.
+    /// Edges on each side: one, or several if the dart narrows again towards the edge that it is cut into.
     pub span: usize,
 }
 
 /// Properties of consecutive edges, divided by the longer side of the bounding box, as of [`Shape::framed`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Section {
-    /// Vector from its first to its last point.
     pub chord: V2,
-    /// Midpoint by length.
+    /// By length.
     pub middle: V2,
-    /// Length without the edges of darts.
+    /// Excludes the edges of darts.
     pub length: f64,
     /// Signed area between edges and chord, divided by the square of the chord, positive if they bulge outwards.
     pub bow: f64,
     /// Sum of |turning angle| at the inner corners, without darts, radians.
     pub turn: f64,
-    /// True if a dart is cut into it.
     pub has_dart: bool,
 }
 
-/// Rotates a point about the origin by quarter turns, counter-clockwise.
-#[must_use]
+/// Rotates about the origin, counter-clockwise.
 pub fn quarter_turned(p: &V2, quarter_turns: usize) -> V2 {
     match quarter_turns % 4 {
         0 => *p,
@@ -91,8 +84,7 @@ fn is_on_curve(outline: &[V2], vertex: usize) -> bool {
 }
 
 impl Shape {
-    /// Shape of a piece. `None` with fewer than 3 or more than [`MOST_CORNERS`] corners.
-    #[must_use]
+    /// `None` with fewer than 3 or more than [`MOST_CORNERS`] corners.
     pub fn of(piece: &Piece) -> Option<Self> {
         let outline = piece.seam_outline();
         let marked = Self::new(outline.to_vec(), corner_vertices(piece))?;
@@ -102,8 +94,7 @@ impl Shape {
         Some(Self { grain, ..Self::new(outline.to_vec(), corners)? })
     }
 
-    /// Shape of a counter-clockwise outline with the given corners. `None` as of [`Shape::of`].
-    #[must_use]
+    /// Takes a counter-clockwise outline. `None` as of [`Shape::of`].
     pub fn new(outline: Vec<V2>, corners: Vec<usize>) -> Option<Self> {
         if !(3..=MOST_CORNERS).contains(&corners.len()) {
             return None;
@@ -144,54 +135,43 @@ impl Shape {
         Some((Self { corners, darts: darts.collect(), ..self.clone() }, edge + 1))
     }
 
-    /// Vertex indices of the corners.
-    #[must_use]
+    /// Vertex indices.
     pub fn corners(&self) -> &[usize] {
         &self.corners
     }
 
     /// Number of corners, and of edges. Edge `k` runs from corner `k` to the next.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.corners.len()
     }
 
-    /// Darts, in the order of their apex.
-    #[must_use]
     pub fn darts(&self) -> &[Dart] {
         &self.darts
     }
 
-    /// Dart that an edge belongs to. `None` for any other edge.
-    #[must_use]
     pub fn dart_of(&self, edge: usize) -> Option<Dart> {
         let n = self.len();
         self.darts.iter().copied().find(|dart| (edge + n + dart.span - dart.apex) % n < 2 * dart.span)
     }
 
-    /// True if an edge belongs to a dart.
-    #[must_use]
     pub fn is_leg(&self, edge: usize) -> bool {
         self.dart_of(edge).is_some()
     }
 
-    /// True if a corner is the apex of a dart, or lies inside one of its sides.
-    #[must_use]
     pub fn is_in_dart(&self, corner: usize) -> bool {
         let n = self.len();
         let is_in = |dart: &Dart| (corner + n + dart.span - dart.apex - 1) % n < 2 * dart.span - 1;
         self.darts.iter().any(is_in)
     }
 
-    /// Points of an edge, including both ends.
+    /// Includes both ends.
     pub fn points(&self, edge: usize) -> Vec<V2> {
         let n = self.outline.len();
         let (from, to) = (self.corners[edge], self.corners[(edge + 1) % self.len()]);
         (0..=(to + n - from) % n).map(|k| self.outline[(from + k) % n]).collect()
     }
 
-    /// Length of an edge, m.
-    #[must_use]
+    /// In m.
     pub fn length(&self, edge: usize) -> f64 {
         self.points(edge).windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum()
     }
@@ -233,23 +213,20 @@ impl Shape {
         1 + (2..=(n - 1) / 2).take_while(is_on).count()
     }
 
-    /// Length of consecutive edges with their darts sewn, m.
-    #[must_use]
+    /// In m, with darts sewn.
     pub fn sewn_length(&self, from: usize, span: usize) -> f64 {
         let edges = (from..from + span).map(|edge| edge % self.len());
         edges.filter(|&edge| !self.is_leg(edge)).map(|edge| self.length(edge)).sum()
     }
 
     /// Least and greatest `v` of consecutive edges.
-    #[must_use]
     pub fn heights(&self, from: usize, span: usize) -> [f64; 2] {
         let points = (0..span).flat_map(|k| self.points((from + k) % self.len()));
         points.fold([f64::MAX, f64::MIN], |[low, high], p| [low.min(p.y), high.max(p.y)])
     }
 
-    /// Returns the shape rotated by quarter turns and divided by the longer side of its bounding box, and the resulting
-    /// width and height of that box.
-    #[must_use]
+    /// Rotates the shape and divides it by the longer side of its bounding box. Returns it with the resulting width and
+    /// height.
     pub fn framed(&self, quarter_turns: usize) -> (Self, V2) {
         let points: Vec<V2> = self.outline.iter().map(|p| quarter_turned(p, quarter_turns)).collect();
         let low = points.iter().fold(V2::repeat(f64::MAX), |low, p| low.inf(p));
@@ -259,9 +236,8 @@ impl Shape {
         (Self { outline, ..self.clone() }, (high - low) / scale)
     }
 
-    /// Mirror symmetry of a framed outline, left to right: the sum of the indices of a corner and its image, modulo the
-    /// number of corners. `None` if the outline is not symmetric.
-    #[must_use]
+    /// Sum of the indices of a corner and its mirror image, left to right, modulo the number of corners. `None` if the
+    /// outline is not symmetric.
     pub fn mirror(&self) -> Option<usize> {
         let n = self.len();
         let place = |corner: usize| self.outline[self.corners[corner % n]];
@@ -270,8 +246,7 @@ impl Shape {
         (0..n).find(|sum| (0..n).all(|corner| is_image(place(corner), place(sum + n - corner))))
     }
 
-    /// Properties of `span` edges, beginning with the edge `from`.
-    #[must_use]
+    /// Takes `span` edges from the edge `from` on.
     pub fn section(&self, from: usize, span: usize) -> Section {
         let n = self.len();
         let mut points: Vec<V2> = Vec::new();

@@ -3,14 +3,12 @@
 
 use super::{Class, Label};
 
-/// One labelled section of a template.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Part {
-    /// Kind of edge.
     pub label: Label,
-    /// Direction of the chord, degrees counter-clockwise from +u.
+    /// Counter-clockwise from +u, along the chord.
     pub direction_deg: f64,
-    /// Bow: 1 for an edge that bulges outwards, -1 for a hollow edge, 0 for a nearly straight one.
+    /// 1 for an edge that bulges outwards, -1 for a hollow edge, 0 for a nearly straight one.
     pub bow: f64,
     /// Position of the middle in the bounding box, 0 to 1 on each axis.
     pub at: [f64; 2],
@@ -18,44 +16,35 @@ pub struct Part {
     pub share: f64,
 }
 
-/// Template of a kind of piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Template {
-    /// Kind of piece.
     pub class: Class,
     /// True if the whole width is drawn. Otherwise one half, with the wearer's outer side on the right.
     pub is_whole: bool,
-    /// Parts of the outline, counter-clockwise.
+    /// Counter-clockwise.
     pub parts: &'static [Part],
 }
 
 impl Template {
-    /// True if the template has a part with this label.
-    #[must_use]
     pub fn has(&self, label: Label) -> bool {
         self.parts.iter().any(|part| part.label == label)
     }
 
-    /// True if the template has a shoulder. A yoke without a shoulder lies below the waist.
-    #[must_use]
+    /// A yoke without a shoulder lies below the waist.
     pub fn has_shoulder(&self) -> bool {
         self.has(Shoulder)
     }
 
-    /// True for raglan: a trunk or sleeve whose seam runs from the underarm to the neck.
-    #[must_use]
+    /// True for a trunk or sleeve whose seam runs from the underarm to the neck.
     pub fn is_raglan(&self) -> bool {
         matches!(self.class, Class::Body | Class::Sleeve) && self.has(Neck) && !self.has(Shoulder)
     }
 
-    /// True for a whole limb that is sewn to itself: a sleeve, or a leg in one piece.
-    #[must_use]
+    /// True for a sleeve, or a leg in one piece: sewn to itself.
     pub fn is_limb(&self) -> bool {
         self.is_whole && matches!(self.class, Class::Sleeve | Class::Leg)
     }
 
-    /// True for a panel of a front or back.
-    #[must_use]
     pub fn is_panel(&self) -> bool {
         self.has(Princess)
     }
@@ -70,7 +59,7 @@ use Label::{
     Waist,
 };
 
-/// All templates. A half is also tried as its mirror image.
+/// A half is also tried as its mirror image.
 pub const TEMPLATES: [Template; 27] = [
     Template {
         class: Class::Body,

@@ -22,13 +22,11 @@ fn pieces(file: &str, size: Option<&str>) -> Option<Vec<Piece>> {
     Some(dxf::read(&bytes, file, unit).expect("it reads").to_sew(size).expect("it is whole"))
 }
 
-/// Every proposal must be a seam file that fits its pieces.
 fn style(pieces: &[Piece], proposal: &Proposal) -> Style {
     let text = proposal.toml("proposed");
     Style::read(pieces, text.as_bytes(), "proposed.toml").unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
-/// Every proposal is a seam file that fits its pieces and meshes; returns it with the number of seams.
 fn proposed(file: &str, size: Option<&str>) -> Option<(Proposal, Style)> {
     let pieces = pieces(file, size)?;
     let proposal = propose(&pieces);
@@ -38,7 +36,7 @@ fn proposed(file: &str, size: Option<&str>) -> Option<(Proposal, Style)> {
     Some((proposal, style))
 }
 
-/// Names of the proposed seams without darts, in order, and the number of darts.
+/// `seams` are without darts, in order.
 fn check(file: &str, seams: &[&str], darts: usize) {
     let Some((proposal, _)) = proposed(file, None) else { return };
     let names: Vec<&str> = proposal.seams.iter().map(|seam| seam.entry.name.as_str()).collect();
@@ -48,7 +46,6 @@ fn check(file: &str, seams: &[&str], darts: usize) {
     assert_eq!(names.len() - plain.len(), darts, "{file}");
 }
 
-/// Seams of a garment with whole front, whole back and sleeves.
 const TOP: [&str; 8] = [
     "armhole_left",
     "armhole_right",
@@ -59,7 +56,6 @@ const TOP: [&str; 8] = [
     "underarm_left",
     "underarm_right",
 ];
-/// Seams of trousers without a waistband.
 const TROUSERS: [&str; 6] =
     ["crotch_back", "crotch_front", "inseam_left", "inseam_right", "outseam_left", "outseam_right"];
 
@@ -174,7 +170,7 @@ fn our_own_styles_are_sewn_by_shape_alone() {
     }
 }
 
-/// Total length of all seams, and total ease, mm.
+/// Total length of all seams, and total ease.
 fn total_mm(style: &Style) -> [i64; 2] {
     let length = |chain: &[EdgeRef]| chain.iter().map(|&edge| style.edge(edge).line.length() * 1e3).sum::<f64>();
     let sides: Vec<[f64; 2]> = style.seams.iter().map(|seam| [length(&seam.a), length(&seam.b)]).collect();
@@ -231,22 +227,20 @@ fn corners_by_curvature_are_corners_that_the_file_marks() {
     assert!(agree * 100 >= 75 * marked, "{agree} of {marked}");
 }
 
-/// A stitch of a GarmentCode file: panel and edge number, twice.
+/// Panel and edge number, twice, of a GarmentCode file.
 type Stitch = [(String, usize); 2];
 
-/// Greatest difference between a symmetric piece and its mirror image, m.
 const SYMMETRIC_M: f64 = 1e-3;
 
-/// True if the two sides of an outline are mirror images.
 fn is_symmetric(outline: &[V2]) -> bool {
     let (low, high) = outline.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p.x), high.max(p.x)));
     let closed = |p: &V2| geom::polyline::boundary_distance(outline, p);
     outline.iter().all(|p| closed(&V2::new(low + high - p.x, p.y)) < SYMMETRIC_M)
 }
 
-/// Number of stitches of a GarmentCode file that the proposal for the DXF file beside it holds: `(true, found)`. The
-/// file may not tell the left side of its whole, symmetric backs. Sewing them turned over then makes the same garment,
-/// so the better of both readings counts.
+/// Number of stitches of a GarmentCode file that the proposal for the DXF file beside it finds. The file may not tell
+/// the left side of its whole, symmetric backs. Sewing them turned over makes the same garment, so the better of both
+/// readings counts.
 fn score(garment: &str) -> Option<(usize, usize)> {
     let [plain, turned] = [false, true].map(|is_turned| score_read(garment, is_turned));
     Some(plain?.max(turned?))

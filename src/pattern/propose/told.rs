@@ -10,10 +10,10 @@ use crate::trade::{self, Named};
 
 /// Keys of texts that describe a piece, in lower case.
 const KEYS: [&str; 7] = ["category", "piece description", "piece_name", "piece_id", "piece id", "type", "part"];
-/// Keys of texts that say how to cut a piece, too. `CUT 2 FABRIC, 2 LINING` does not make a front a lining.
+/// Texts that also say how to cut a piece. `CUT 2 FABRIC, 2 LINING` does not make a front a lining.
 const REMARKS: [&str; 2] = ["annotation", "description"];
 
-/// Usual abbreviations, as lower-case words, of the terms that they stand for.
+/// Lower-case words, by the terms that they stand for.
 const ABBREVIATIONS: [(&str, &[&str]); 13] = [
     ("front", &["f", "fr", "frn", "fnt", "frt", "frnt", "fa", "vt"]),
     ("back", &["b", "bk", "bck", "bak", "bac", "ba"]),
@@ -33,17 +33,15 @@ const ABBREVIATIONS: [(&str, &[&str]); 13] = [
 /// Abbreviations that follow the name of the style without a separator (`RUNNERBK`), the longest first.
 const ENDINGS: [(&str, &[&str]); 3] = [("front", &["frt", "fr"]), ("back", &["bck", "bk"]), ("sleeve", &["slv", "sl"])];
 
-/// Statements about a piece.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Told {
-    /// Statement of the name and texts of the piece.
+    /// Name and texts of the piece.
     pub own: Named,
-    /// Statement of the words that all names in the file share. They are about the style.
+    /// Words that all names in the file share. They are about the style.
     pub shared: Named,
 }
 
 impl Told {
-    /// Combined statement.
     pub fn all(self) -> Named {
         let (own, shared) = (self.own, self.shared);
         Named {
@@ -55,7 +53,6 @@ impl Told {
     }
 }
 
-/// Statements of a file about each of its pieces.
 pub fn told(pieces: &[Piece]) -> Vec<Told> {
     let (words, of_style) = words_of(pieces);
     let (own, common) = parted(&words);
@@ -130,7 +127,7 @@ fn shared_of(shared: Named, own: &[Named]) -> Named {
     }
 }
 
-/// Statement about a piece, made a lining if its material is one and that of other pieces is not.
+/// Makes a piece a lining if its material is one and that of other pieces is not.
 fn lined(pieces: &[Piece], piece: &Piece, said: Named) -> Named {
     let is_lining = |piece: &Piece| {
         let materials = piece.texts.iter().filter(|(key, _)| key.eq_ignore_ascii_case("material"));
@@ -199,7 +196,6 @@ fn loosened(words: &[String], names: &[Vec<String>]) -> Vec<String> {
     words.iter().flat_map(|word| cut(word).map_or_else(|| vec![word.clone()], Vec::from)).collect()
 }
 
-/// Words of each name that are not shared, and the shared words.
 fn parted(names: &[Vec<String>]) -> (Vec<Vec<String>>, Vec<String>) {
     let mut own = names.to_vec();
     let mut common: Vec<String> = Vec::new();
@@ -219,7 +215,6 @@ fn parted(names: &[Vec<String>]) -> (Vec<Vec<String>>, Vec<String>) {
     (own, common)
 }
 
-/// Number of bytes at the beginning that all names share.
 fn common_start(pieces: &[Piece]) -> usize {
     let mut names = pieces.iter().map(|piece| piece.name.as_str());
     let Some(first) = names.next().filter(|_| pieces.len() > 1) else { return 0 };
@@ -230,7 +225,6 @@ fn common_start(pieces: &[Piece]) -> usize {
     names.map(shared).min().unwrap_or(0)
 }
 
-/// Statement of the abbreviations in the rest of a name. `None` without any.
 fn written_out(rest: &str) -> Option<Named> {
     let words = trade::words(rest);
     let whole = |word: &str| ABBREVIATIONS.iter().find(|(_, short)| short.contains(&word)).map(|(long, _)| *long);

@@ -5,7 +5,7 @@ use super::worn_pieces::Worn;
 use super::{Class, Face, Hand, Label, SeamKind};
 
 impl<'w> Tailor<'w, '_, '_> {
-    /// Pieces of a kind on front or back, in the counter-clockwise order of their lower edges.
+    /// In the counter-clockwise order of their lower edges.
     pub fn row(&self, class: Class, face: Face) -> Vec<&'w Worn> {
         let order = if face == Face::Front { Hand::BOTH } else { [Hand::Left, Hand::Right] };
         let mut row: Vec<&Worn> = Vec::new();
@@ -21,7 +21,6 @@ impl<'w> Tailor<'w, '_, '_> {
         row
     }
 
-    /// Joins a yoke over the shoulders to the pieces that hang from it.
     pub fn yoke(&mut self, face: Face) {
         let (yokes, bodies) = (self.row(Class::Yoke, face), self.row(Class::Body, face));
         let a: Chain<'_> = yokes.iter().flat_map(|worn| worn.chain(Label::Lower, None)).collect();
@@ -30,8 +29,7 @@ impl<'w> Tailor<'w, '_, '_> {
         self.add(SeamKind::Yoke(face), a, b, &pieces, EASED_DOUBT);
     }
 
-    /// Joins the lower edges of upper pieces to the upper edges of lower pieces, front or back: bodice, waistband,
-    /// yoke, skirt or legs.
+    /// Joins upper to lower pieces of front or back: bodice, waistband, yoke, skirt or legs.
     pub fn waist(&mut self, face: Face) {
         let level = |class: Class| match self.row(class, face) {
             row if row.is_empty() && class == Class::Skirt => self.gores(face),
@@ -72,14 +70,12 @@ impl<'w> Tailor<'w, '_, '_> {
         self.worn.iter().filter(is_round).collect()
     }
 
-    /// Gores below the front or the back of a band in halves.
     fn gores(&self, face: Face) -> Vec<&'w Worn> {
         let gores: Vec<&Worn> = self.skirt_round().into_iter().filter(|worn| worn.is_gore).collect();
         let [front, back] = [&gores[..gores.len().div_ceil(2)], &gores[gores.len().div_ceil(2)..]];
         if face == Face::Front { front.to_vec() } else { back.to_vec() }
     }
 
-    /// Waistbands that are neither front nor back: one all round, or one on each side.
     fn bands_round(&self) -> Vec<&'w Worn> {
         self.worn.iter().filter(|worn| worn.class == Class::Waistband && worn.face.is_none()).collect()
     }
@@ -111,7 +107,6 @@ impl<'w> Tailor<'w, '_, '_> {
         }
     }
 
-    /// Joins one band to the pieces above and below, on one side or all round.
     fn band(&mut self, band: &'w Worn, hand: Option<Hand>) {
         let below = [Class::Skirt, Class::Leg].map(|class| self.round(class, hand));
         if let Some(below) = below.iter().find(|pieces| !pieces.is_empty()) {

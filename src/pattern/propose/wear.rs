@@ -10,21 +10,17 @@ const SURE: f64 = 0.4;
 /// Kinds of pieces that can be left out, the outermost first.
 const SPARED: [Class; 3] = [Class::Cuff, Class::Waistband, Class::Sleeve];
 
-/// Error: the certain part of a proposal is not closed on the body.
+/// The certain part of a proposal is not closed on the body.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("how it is sewn is not sure enough: {reason}")]
 pub struct Unwearable {
-    /// Missing seams, questions and notes as text.
     pub reason: String,
 }
 
 impl Proposal {
     /// Part of the proposal that can be draped without questions. Bands, cuffs and sleeves with uncertain seams, and
-    /// pieces that are sewn to nothing, are left out on both sides alike, each with a note.
-    ///
-    /// # Errors
-    /// [`Unwearable`] if the rest is not closed (a side, shoulder, leg or yoke seam is uncertain), or if it is to be said
-    /// first what a wide piece is that would be left out.
+    /// pieces that are sewn to nothing, are left out on both sides alike, each with a note. Fails where the rest is not
+    /// closed, or where it is to be said first what a wide piece is that would be left out.
     pub fn to_drape(&self) -> Result<Self, Unwearable> {
         let mut left = self.clone();
         while let Some((class, reason)) = left.loose() {
@@ -43,8 +39,7 @@ impl Proposal {
         Err(Unwearable { reason })
     }
 
-    /// Outermost kind of piece that is not attached with certainty and can be left out, with the reason. `None` if
-    /// there is none.
+    /// Outermost kind of piece that is not attached with certainty and can be left out, with the reason.
     fn loose(&self) -> Option<(Class, String)> {
         let pieces_of = |class: Class| self.pieces.iter().filter(move |piece| piece.class == Some(class));
         let spared = SPARED.into_iter().flat_map(pieces_of);
@@ -70,14 +65,12 @@ impl Proposal {
         of_seams.next()
     }
 
-    /// True if a seam joins pieces of `class` to the kind of piece that carries them.
     fn is_hold(&self, seam: &ProposedSeam, class: Option<Class>) -> bool {
         let class_of =
             |id: &str| self.pieces.iter().find(|piece| piece.id.as_deref() == Some(id)).and_then(|piece| piece.class);
         ids(seam).any(|id| class_of(id) != class)
     }
 
-    /// Removes all pieces of a kind and their seams.
     fn leave_out(&mut self, class: Class, reason: &str) {
         // Left and right sleeves go together, as do both halves of a waistband.
         let gone = |piece: &ProposedPiece| piece.class == Some(class);
@@ -101,7 +94,6 @@ impl Proposal {
         }
     }
 
-    /// Remarks on seams that must close the garment and are not certain.
     fn missing(&self) -> Vec<String> {
         let mut missing: Vec<String> = self
             .seams
@@ -125,7 +117,6 @@ pub fn lacking(worn: &[Worn], seams: &[ProposedSeam]) -> Vec<String> {
     not_sewn.map(|kind| format!("the seam {kind} was not found")).chain(apart(worn, seams)).collect()
 }
 
-/// Seams without which the pieces do not close.
 fn needed(worn: &[Worn]) -> Vec<SeamKind> {
     let has = |class: Class| worn.iter().any(|worn| worn.class == class);
     let has_edge = |label: Label| worn.iter().any(|worn| worn.has(label));
@@ -167,7 +158,6 @@ fn needed(worn: &[Worn]) -> Vec<SeamKind> {
     needed
 }
 
-/// Seams without which the front or the back alone does not close.
 fn needed_of(worn: &[Worn], face: Face) -> Vec<SeamKind> {
     let pieces_of = |class: Class| worn.iter().filter(move |worn| worn.class == class && worn.face == Some(face));
     let mut needed = Vec::new();
@@ -207,13 +197,11 @@ fn apart(worn: &[Worn], seams: &[ProposedSeam]) -> Option<String> {
     Some(format!("no seam joins {apart} to {}", joined.first()?))
 }
 
-/// True if a seam is sewn without a question. Halves that are mirror images are closed at the centre in any case: by a
-/// seam, buttons or a fold.
+/// Halves that are mirror images are closed at the centre in any case: by a seam, buttons or a fold.
 fn is_sure(seam: &ProposedSeam) -> bool {
     seam.confidence >= if seam.kind.is_centre() { SURE * sew::CENTRE_CONFIDENCE } else { SURE }
 }
 
-/// Identifier of the piece of each edge of a seam.
 fn ids(seam: &ProposedSeam) -> impl Iterator<Item = &str> {
     seam.entry.a.iter().chain(&seam.entry.b).filter_map(|edge| edge.split_once('.').map(|(id, _)| id))
 }

@@ -16,12 +16,11 @@ use crate::style::named::reference;
 use geom::V2;
 use geom::polyline::Polyline;
 
-/// An edge of a piece as worn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WornEdge {
-    /// Name, unique in the piece.
+    /// Unique in the piece.
     pub name: String,
-    /// Kind of edge. `None` for an edge of a dart.
+    /// `None` for an edge of a dart.
     pub label: Option<Label>,
     /// Side of the wearer, on which the piece has this edge. `None` if the piece has only one. For the front or back
     /// half of a sleeve, [`Hand::Right`] is the front of a right sleeve.
@@ -32,39 +31,29 @@ pub struct WornEdge {
     pub notches: Vec<f64>,
 }
 
-/// A piece as worn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Worn {
-    /// Index of the drawn piece.
     pub piece: usize,
     /// Identifier in the seam file.
     pub id: String,
-    /// Kind of piece.
     pub class: Class,
-    /// Front or back.
     pub face: Option<Face>,
-    /// Side of the wearer. `None` for a piece on both sides.
+    /// `None` for a piece on both sides.
     pub hand: Option<Hand>,
-    /// True if the whole width is drawn.
     pub is_whole: bool,
-    /// True for a gore.
     pub is_gore: bool,
-    /// Edges, counter-clockwise as worn.
+    /// Counter-clockwise as worn.
     pub edges: Vec<WornEdge>,
-    /// Names of both edges of every dart.
     pub darts: Vec<[String; 2]>,
-    /// Entry of the seam file.
     pub entry: PieceEntry,
-    /// Confidence, 0 to 1.
+    /// 0 to 1.
     pub confidence: f64,
 }
 
-/// An edge in one side of a seam. `Display` writes it as in seam files.
+/// Edge in one side of a seam. `Display` writes it as in seam files.
 #[derive(Clone, Copy, Debug)]
 pub struct Along<'w> {
-    /// Piece that the seam joins.
     pub piece: &'w Worn,
-    /// Edge of the piece.
     pub edge: &'w WornEdge,
 }
 
@@ -74,11 +63,10 @@ impl fmt::Display for Along<'_> {
     }
 }
 
-/// Greatest distance of a notch from the edge that it marks, m.
+/// Greatest distance of a notch from the edge that it marks.
 const ON_EDGE_M: f64 = 12e-3;
 
-/// Makes the pieces as worn. Of two pieces for one place the second is left out, with a question. `drawn` is the arm
-/// for which a whole sleeve is drawn, if known.
+/// Leaves out a second piece for one place, with a question. `drawn` is the arm of a whole sleeve, if known.
 pub fn worn(pieces: &[Piece], recognised: &[Recognised], drawn: Option<Hand>, asker: &mut Asker<'_>) -> Vec<Worn> {
     let backs_face_inwards = recognised.iter().any(|candidate| {
         candidate.face == Some(Face::Back)
@@ -127,7 +115,7 @@ pub fn worn(pieces: &[Piece], recognised: &[Recognised], drawn: Option<Hand>, as
     all
 }
 
-/// Asks for which arm a whole sleeve is drawn. `None` without such a sleeve.
+/// `None` without a whole sleeve.
 pub fn ask_drawn_sleeve(pieces: &[Piece], recognised: &[Recognised], asker: &mut Asker<'_>) -> Option<Hand> {
     let is_it = |candidate: &&Recognised| {
         candidate.class == Class::Sleeve && candidate.alignment.template.is_whole && candidate.hand.is_none()
@@ -138,21 +126,18 @@ pub fn ask_drawn_sleeve(pieces: &[Piece], recognised: &[Recognised], asker: &mut
     asker.ask_of([sleeve.piece], text, choices, Some(0)).map(|choice| Hand::BOTH[choice])
 }
 
-/// Side of the wearer for which half a piece is drawn, seen from outside. `None` for a whole piece.
+/// Side as seen from outside. `None` for a whole piece.
 fn natural_hand(candidate: &Recognised) -> Option<Hand> {
     let face = candidate.face.filter(|_| !candidate.alignment.template.is_whole)?;
     Some(pose::natural_hand(face, candidate.alignment.is_mirrored))
 }
 
-/// Copy of a piece.
 struct PieceCopy {
-    /// Side of the wearer. `None` for a copy on both sides.
+    /// `None` for a copy on both sides.
     hand: Option<Hand>,
-    /// True if the copy is worn as the mirror image of the drawing.
     is_mirror: bool,
 }
 
-/// Copies of a piece.
 fn copies(candidate: &Recognised, backs_face_inwards: bool, drawn: Option<Hand>) -> Vec<PieceCopy> {
     let drawn = drawn.unwrap_or(Hand::Right);
     let copy = |hand, is_mirror| PieceCopy { hand: Some(hand), is_mirror };
@@ -197,8 +182,7 @@ fn drawn_panel(panel: &Recognised, recognised: &[Recognised]) -> Hand {
     if apart(true) <= apart(false) { Hand::Right } else { Hand::Left }
 }
 
-/// Side for which a leg in one piece is drawn, seen from outside: its back reaches further in under the seat than its
-/// front.
+/// Side as seen from outside: the back reaches further in under the seat than the front.
 fn drawn_leg(candidate: &Recognised) -> Hand {
     let (framed, _) = candidate.shape.framed(candidate.alignment.quarter_turns);
     let reach = |is_right: bool| {
@@ -209,7 +193,6 @@ fn drawn_leg(candidate: &Recognised) -> Hand {
     if reach(true) <= reach(false) { Hand::Right } else { Hand::Left }
 }
 
-/// Identifier of a piece in the seam file, for one side of the wearer or both.
 pub fn id_of(candidate: &Recognised, hand: Option<Hand>) -> String {
     let class = match candidate.class {
         Class::Body | Class::Other => None,
@@ -294,7 +277,7 @@ fn wear(pieces: &[Piece], candidate: &Recognised, id: String, hand: Option<Hand>
     }
 }
 
-/// Arc lengths of the notches along consecutive edges as drawn, m, without notches at their ends.
+/// Arc lengths along consecutive edges as drawn, m, without notches at their ends.
 fn notches_on(piece: &Piece, shape: &super::shape::Shape, from: usize, span: usize) -> Vec<f64> {
     let mut points: Vec<V2> = (0..span).flat_map(|k| shape.points((from + k) % shape.len())).collect();
     points.dedup();
@@ -312,7 +295,6 @@ fn notches_on(piece: &Piece, shape: &super::shape::Shape, from: usize, span: usi
     found.filter(|(distance, _)| *distance < ON_EDGE_M).map(|(_, arc)| arc).filter(is_inside).collect()
 }
 
-/// Side of the wearer of one of two equal edges.
 fn side_of(candidate: &Recognised, is_right: bool, hand: Option<Hand>, is_mirror: bool) -> Hand {
     let is_right_as_worn = is_right != is_mirror;
     let is_back = candidate.face == Some(Face::Back);
@@ -332,7 +314,6 @@ fn side_of(candidate: &Recognised, is_right: bool, hand: Option<Hand>, is_mirror
 }
 
 impl Worn {
-    /// True if the piece has an edge with this label.
     pub fn has(&self, label: Label) -> bool {
         self.edges.iter().any(|edge| edge.label == Some(label))
     }

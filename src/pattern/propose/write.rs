@@ -12,8 +12,6 @@ use geom::units::mm;
 const EASED_RATIO: f64 = 1.01;
 
 impl Proposal {
-    /// Seam file of the proposal for a style of this name.
-    #[must_use]
     pub fn seam_file(&self, name: &str) -> SeamFile {
         SeamFile {
             name: name.to_owned(),
@@ -31,8 +29,7 @@ impl Proposal {
         }
     }
 
-    /// Writes the seam file as TOML, with confidences and questions to the user as comments.
-    #[must_use]
+    /// Gives confidences and questions to the user as comments.
     pub fn toml(&self, name: &str) -> String {
         let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
         let list = |names: &[String]| names.iter().map(|name| quoted(name)).collect::<Vec<_>>().join(", ");

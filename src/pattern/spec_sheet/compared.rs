@@ -3,22 +3,18 @@
 use super::matching::{Matching, RowMatch, Target};
 use super::{SheetRow, SpecSheet};
 
-/// Arithmetic noise of a deviation, mm: far below what a tape tells.
+/// Arithmetic noise of a deviation: far below what a tape tells.
 const NOISE_MM: f64 = 1e-3;
 
-/// Verdict on a length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
-    /// Within the tolerance.
     In,
-    /// Outside the tolerance.
     Out,
 }
 
 impl Verdict {
     /// Name in tables and SQL.
-    #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Self::In => "in",
@@ -31,43 +27,36 @@ impl Verdict {
 /// is specified.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct SpecLine {
-    /// Code of the row.
     pub code: String,
-    /// Description of the row, as written.
+    /// As written.
     pub description: String,
-    /// Point of measure, as `half_chest`, `2*half_chest` or `half_below_armhole@100`. `None` for a row without one.
+    /// Such as `half_chest`, `2*half_chest` or `half_below_armhole@100`. `None` for a row without a point.
     pub point: Option<String>,
-    /// Name of the size.
     pub size: String,
-    /// Specification, mm.
     pub spec_mm: f64,
-    /// Greatest shortfall, mm. `None` where no tolerance is written.
+    /// Greatest shortfall. `None` where no tolerance is written.
     pub minus_mm: Option<f64>,
-    /// Greatest excess, mm. `None` as of `minus_mm`.
+    /// Greatest excess. `None` as of `minus_mm`.
     pub plus_mm: Option<f64>,
-    /// Length of the flat pattern, mm. `None` where it is not known.
+    /// `None` where it is not known.
     pub flat_mm: Option<f64>,
-    /// Length on the drape, mm. `None` without a drape, and across no cloth.
+    /// `None` without a drape, and across no cloth.
     pub worn_mm: Option<f64>,
-    /// Flat length less the specification, mm.
+    /// Flat length less the specification.
     pub deviation_mm: Option<f64>,
-    /// Verdict of the tolerance. `None` where length or tolerance is not known.
+    /// `None` where length or tolerance is not known.
     pub verdict: Option<Verdict>,
-    /// Specification less that of the size before, mm. `None` for the first size.
+    /// Specification less that of the size before. `None` for the first size.
     pub step_mm: Option<f64>,
-    /// Flat length less that of the size before, mm. `None` as of `step_mm`.
+    /// Flat length less that of the size before. `None` as of `step_mm`.
     pub flat_step_mm: Option<f64>,
 }
 
 impl SpecLine {
-    /// True outside the tolerance.
-    #[must_use]
     pub fn is_out(&self) -> bool {
         self.verdict == Some(Verdict::Out)
     }
 
-    /// Line of a row in a size, with deviation and verdict.
-    #[must_use]
     pub fn judged(self) -> Self {
         let deviation_mm = self.flat_mm.map(|flat_mm| flat_mm - self.spec_mm);
         let verdict = deviation_mm.zip(self.minus_mm.zip(self.plus_mm)).map(|(off, (minus, plus))| {
@@ -77,7 +66,6 @@ impl SpecLine {
     }
 }
 
-/// Point of each row, with its share. `None` for a row without a point.
 fn target(found: &RowMatch) -> Option<Target> {
     match found {
         RowMatch::Is(target, _) => Some(*target),
@@ -85,9 +73,7 @@ fn target(found: &RowMatch) -> Option<Target> {
     }
 }
 
-/// Lines of a sheet: every row in every size, in the order of the sheet. `flat` gives the pattern's lengths of a point in
-/// the sizes of the sheet, mm.
-#[must_use]
+/// In the order of the sheet. `flat` gives the pattern's lengths in its sizes, mm.
 pub fn lines(sheet: &SpecSheet, matching: &Matching, flat: &super::matching::Lengths<'_>) -> Vec<SpecLine> {
     let unit = matching.unit.unit.mm_per_unit();
     let mut all = Vec::new();

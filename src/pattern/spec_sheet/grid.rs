@@ -6,9 +6,9 @@ use encoding_rs::WINDOWS_1252;
 
 /// Cells of a sheet. Rows are numbered as in the file, columns from 0.
 pub struct Grid {
-    /// Name of the sheet. Empty for CSV.
+    /// Empty for CSV.
     pub name: String,
-    /// Rows with cells, in order.
+    /// Only rows with cells, in order.
     pub rows: Vec<Row>,
     merged: Vec<Merged>,
 }
@@ -20,7 +20,7 @@ impl From<Sheet> for Grid {
 }
 
 impl Grid {
-    /// Cells of a CSV file, in UTF-8 or, as spreadsheets also write it, in Windows-1252.
+    /// Reads UTF-8 or, as spreadsheets also write it, Windows-1252.
     pub fn csv(bytes: &[u8]) -> Self {
         let rows = match table::text(bytes) {
             Ok(text) => table::rows(text),
@@ -29,7 +29,7 @@ impl Grid {
         Self { name: String::new(), rows, merged: Vec::new() }
     }
 
-    /// Text of a cell. Empty for a cell that is not there.
+    /// Empty for a cell that is not there.
     pub fn at(&self, line: usize, column: usize) -> &str {
         let row = self.rows.binary_search_by_key(&line, |row| row.line).ok().map(|k| &self.rows[k]);
         row.and_then(|row| row.cells.get(column)).map_or("", |cell| cell.trim())
@@ -48,7 +48,6 @@ impl Grid {
         }
     }
 
-    /// Number of columns of the widest row.
     pub fn width(&self) -> usize {
         self.rows.iter().map(|row| row.cells.len()).max().unwrap_or_default()
     }

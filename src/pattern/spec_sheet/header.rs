@@ -5,12 +5,10 @@ use std::collections::BTreeSet;
 use super::grid::Grid;
 use super::number;
 
-/// Heads of the column of codes.
 const CODES: [&str; 21] = [
     "code", "pom", "pom #", "pom#", "pom no", "pom code", "no", "no.", "#", "ref", "ref.", "id", "item", "pos", "pos.",
     "point", "key", "nr", "nr.", "dim", "pt",
 ];
-/// Heads of the column of descriptions.
 const DESCRIPTIONS: [&str; 24] = [
     "description",
     "descriptions",
@@ -70,36 +68,30 @@ const OTHERS: [&str; 24] = [
 const LETTERS: [&str; 12] = ["xxxs", "xxs", "xs", "s", "m", "l", "xl", "xxl", "xxxl", "xxxxl", "os", "one size"];
 /// Greatest number of letters after the number of a size, as in `10Y` or `34L`.
 const MOST_LETTERS: usize = 2;
-/// Greatest number that is a size, such as 176, the stature of a child in cm.
+/// Greatest number that is a size, such as the stature of a child in cm.
 const GREATEST_SIZE: u32 = 188;
 
-/// Columns of a table, and the row at which its rows begin.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Columns {
     /// First and last row of the heads.
     pub heads: [usize; 2],
-    /// Column of codes.
     pub code: Option<usize>,
-    /// Column of descriptions.
     pub description: usize,
-    /// Columns of tolerances upwards and downwards, the same for one that holds both ways.
+    /// Upwards and downwards; the same for a column that holds both ways.
     pub tolerance: Option<[usize; 2]>,
-    /// Columns of sizes with their names.
     pub sizes: Vec<(usize, String)>,
 }
 
-/// Finds the columns of the first table of a sheet. `known` are the sizes of the pattern. `None` if no row has heads for
-/// descriptions and sizes.
+/// Takes the first table. `known` are the pattern's sizes. `None` if no row has heads for descriptions and sizes.
 pub fn columns(grid: &Grid, known: &[String]) -> Option<Columns> {
     grid.rows.iter().find_map(|row| columns_at(grid, row.line, known))
 }
 
-/// Heads of the columns of a table.
 struct Heads {
     rows: [usize; 2],
-    /// Words of both rows of heads, in lower case.
+    /// Both rows of heads, in lower case.
     words: Vec<String>,
-    /// Text of the lower row, or of the upper one if that is empty.
+    /// Lower row, or the upper one if that is empty.
     own: Vec<String>,
 }
 
@@ -151,7 +143,6 @@ fn columns_at(grid: &Grid, line: usize, known: &[String]) -> Option<Columns> {
     })
 }
 
-/// Heads of a table: one row of them, or two.
 fn heads(grid: &Grid, line: usize, description: usize, code: Option<usize>) -> Heads {
     let width = grid.width();
     let is_other = |column: usize| column != description && Some(column) != code;
@@ -180,7 +171,7 @@ fn heads(grid: &Grid, line: usize, description: usize, code: Option<usize>) -> H
     Heads { rows: [upper, lower], words: words.collect(), own: own.collect() }
 }
 
-/// Text in lower case with single spaces, without a unit in brackets and a colon at its end.
+/// Lower case with single spaces, without a unit in brackets and a colon at the end.
 fn plain(text: &str) -> String {
     let mut text = text.to_lowercase().replace('\u{2212}', "-");
     for unit in ["(in)", "(inch)", "(inches)", "(cm)", "(mm)"] {
@@ -194,7 +185,6 @@ fn is_tolerance(word: &str) -> bool {
     TOLERANCES.iter().any(|begin| word.starts_with(begin)) || ["+", "-", "+)", "-)", "plus", "minus"].contains(&word)
 }
 
-/// Columns of tolerances upwards and downwards.
 fn tolerance(columns: &[usize], words: &[String]) -> Option<[usize; 2]> {
     let signs = |column: &usize| {
         let word = &words[*column];
@@ -207,7 +197,6 @@ fn tolerance(columns: &[usize], words: &[String]) -> Option<[usize; 2]> {
     }
 }
 
-/// True if a head is the name of a size: one of the pattern's, letters or a number.
 fn is_size(head: &str, known: &[String]) -> bool {
     let name = size_name(head).to_lowercase();
     let part = |part: &str| {
@@ -220,7 +209,7 @@ fn is_size(head: &str, known: &[String]) -> bool {
     is_known || !name.is_empty() && name.split(['/', '-']).all(|one| part(one.trim()))
 }
 
-/// Name of a size without words such as `size` before it and remarks in brackets after it.
+/// Cuts words such as `size` before the name, and remarks in brackets after it.
 fn size_name(head: &str) -> String {
     let name = head.split('(').next().unwrap_or_default().trim();
     let name = if name.is_empty() { head.trim() } else { name };

@@ -19,17 +19,14 @@ const PLAUSIBLE: f64 = 0.15;
 const NEAR: f64 = 0.04;
 /// Least share by which the next point must differ more: half a step of a size chart.
 const APART: f64 = 0.5 * NEAR;
-/// Lengths that differ by less are the same, mm.
+/// Lengths that differ by less are the same.
 const SAME_MM: f64 = 1.0;
-/// Units of sheets.
 const UNITS: [Unit; 3] = [Unit::In, Unit::Cm, Unit::Mm];
-/// Greatest number of candidates of a question.
 const CANDIDATES: usize = 4;
 
-/// A point with its share: a specified girth is twice the point that is half of it.
+/// A specified girth is twice the point that is half of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Target {
-    /// Point of measure.
     pub measure: Measure,
     /// Specified length for each length of the point: 2 for a girth whose half is the point, 0.5 for half of a round.
     pub times: f64,
@@ -44,12 +41,10 @@ impl fmt::Display for Target {
     }
 }
 
-/// An answer to the question of a row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
-    /// Code of the row.
     pub code: String,
-    /// Point of the row, with its share if that was said. `None` if it is no point.
+    /// Point with its share if that was said. `None` if the row is no point.
     pub point: Option<(Measure, Option<f64>)>,
 }
 
@@ -93,17 +88,15 @@ impl fmt::Display for Answer {
 /// Reason for which a row has its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum How {
-    /// Its words name no other.
+    /// Words of the row name no other.
     Words,
-    /// Its words name several, and its lengths fit one of them.
+    /// Words of the row name several, and its lengths fit one of them.
     Lengths,
-    /// It was said.
     Answer,
 }
 
 impl How {
     /// Name in tables and SQL.
-    #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Words => "words",
@@ -113,66 +106,44 @@ impl How {
     }
 }
 
-/// Outcome for a row.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RowMatch {
-    /// The row is a point.
     Is(Target, How),
-    /// The row is no point, as was said.
+    /// Row that was said to be no point.
     None,
-    /// The row is asked for.
     Asked {
-        /// Reason, as the end of a sentence.
+        /// End of a sentence.
         why: String,
-        /// Points that it may be, as an answer names them.
         candidates: Vec<Target>,
     },
 }
 
-/// Rows of a sheet with their points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Matching {
-    /// Unit of the lengths.
     pub unit: SaidUnit,
-    /// Outcome of each row, in the order of the sheet.
     pub rows: Vec<RowMatch>,
-    /// Remarks for the reader, as sentences.
     pub notes: Vec<String>,
 }
 
-/// Error of matching a sheet to a pattern.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MatchError {
-    /// An answer for a row that is not there.
+    /// Answer to no row.
     #[error("{file}: there is no row `{code}`; accepted: one of {codes}")]
-    NoRow {
-        /// Name of the sheet's file.
-        file: String,
-        /// Code of the answer.
-        code: String,
-        /// Codes of the sheet.
-        codes: String,
-    },
-    /// A sheet whose unit is unsure.
+    NoRow { file: String, code: String, codes: String },
     #[error(
         "{file}: found no unit, and its lengths do not tell it beside those of the pattern{tried}; accepted: in, cm or mm (--sheet-unit)"
     )]
     NoUnit {
-        /// Name of the sheet's file.
         file: String,
         /// Units that were compared, with their differences.
         tried: String,
     },
 }
 
-/// Lengths of a pattern at a point in each size of a sheet, mm. `None` in a size that the pattern does not have, and for a
-/// point that it does not have.
+/// Lengths in each size of a sheet, mm. `None` in a size, or for a point, that the pattern does not have.
 pub type Lengths<'a> = dyn Fn(Measure) -> Vec<Option<f64>> + 'a;
 
-/// Tells the point of each row.
-///
-/// # Errors
-/// [`MatchError`] for an answer to no row, and for a sheet whose unit neither words nor lengths tell.
+/// Fails for an answer to no row, and where neither words nor lengths tell the unit.
 pub fn matched(sheet: &SpecSheet, flat: &Lengths<'_>, answers: &[Answer]) -> Result<Matching, MatchError> {
     let has = |code: &str| sheet.rows.iter().any(|row| row.code.eq_ignore_ascii_case(code));
     if let Some(answer) = answers.iter().find(|answer| !has(&answer.code)) {
@@ -196,7 +167,6 @@ pub fn matched(sheet: &SpecSheet, flat: &Lengths<'_>, answers: &[Answer]) -> Res
     Ok(Matching { unit, rows, notes })
 }
 
-/// Remarks on points that several rows have.
 fn twice(sheet: &SpecSheet, rows: &[RowMatch]) -> Vec<String> {
     let points: Vec<(&str, Target)> = sheet
         .rows
@@ -213,7 +183,6 @@ fn twice(sheet: &SpecSheet, rows: &[RowMatch]) -> Vec<String> {
     pairs.map(|(other, code, target)| format!("rows {other} and {code} are both {target}")).collect()
 }
 
-/// Shares by which a point may be specified.
 fn shares(measure: Measure, extent: Option<Extent>) -> &'static [f64] {
     match (measure.is_half(), measure.is_round(), extent) {
         (true, _, None) => &[1.0, 2.0],
@@ -225,7 +194,7 @@ fn shares(measure: Measure, extent: Option<Extent>) -> &'static [f64] {
     }
 }
 
-/// Mean share by which the lengths of a row differ from those of a point. `None` without a size in common.
+/// Mean share by which lengths differ. `None` without a size in common.
 fn difference(row: &SheetRow, mm_per_unit: f64, flat: &[Option<f64>], times: f64) -> Option<f64> {
     let pairs = row.lengths.iter().zip(flat).filter_map(|(length, flat)| Some(((*length)?, (*flat)?)));
     let ratios = pairs.map(|(length, flat)| (length * mm_per_unit / (times * flat)).ln().abs());
@@ -258,7 +227,7 @@ impl<'a> Known<'a> {
     }
 }
 
-/// Unit of a sheet: its own, or the one in which its lengths are nearest to those of the pattern.
+/// Unit that the sheet says, or the one in which its lengths are nearest to those of the pattern.
 fn unit(sheet: &SpecSheet, told: &[Told], flat: &Lengths<'_>, notes: &mut Vec<String>) -> Result<SaidUnit, MatchError> {
     let known = |(row, told)| Known::of(row, told, flat);
     let all: Vec<Known<'_>> = sheet.rows.iter().zip(told).filter_map(known).collect();
@@ -295,13 +264,11 @@ fn unit(sheet: &SpecSheet, told: &[Told], flat: &Lengths<'_>, notes: &mut Vec<St
     Err(MatchError::NoUnit { file: sheet.file.clone(), tried })
 }
 
-/// Rows beside the lengths of a pattern.
 struct Matcher<'a> {
     flat: &'a Lengths<'a>,
     unit: Unit,
 }
 
-/// A point with the share by which lengths of a row differ from it.
 struct Fit {
     target: Target,
     off: f64,
@@ -309,7 +276,6 @@ struct Fit {
 }
 
 impl Matcher<'_> {
-    /// Fits of a point, by share. Empty for a point that the pattern does not have.
     fn fits(&self, row: &SheetRow, measure: Measure, shares: &[f64]) -> Vec<Fit> {
         let flat = (self.flat)(measure);
         let fit = |times: &f64| {
@@ -328,7 +294,6 @@ impl Matcher<'_> {
         RowMatch::Is(Target { measure, times }, How::Answer)
     }
 
-    /// Point of a row by its words and lengths.
     fn row(&self, row: &SheetRow, told: &Told) -> RowMatch {
         let Meant { sure, partly } = meant(told, self.unit);
         let all: Vec<Fit> =
@@ -355,7 +320,6 @@ impl Matcher<'_> {
         RowMatch::Asked { why: "its words and lengths fit several points".to_owned(), candidates }
     }
 
-    /// Question for a row whose words name no point that fits.
     fn asked(&self, row: &SheetRow, told: &Told, sure: &[Measure], partly: &[Measure]) -> RowMatch {
         let is_there = |measure: &&Measure| (self.flat)(**measure).iter().any(Option::is_some);
         let names = |measures: &[Measure]| measures.iter().map(ToString::to_string).collect::<Vec<_>>().join(" or ");
@@ -387,7 +351,6 @@ impl Matcher<'_> {
     }
 }
 
-/// Place of a point among all.
 fn order(measure: Measure) -> usize {
     match measure {
         Measure::Point(point) => point as usize,

@@ -21,35 +21,29 @@ use crate::dxf::Unit;
 use crate::workbook::{Workbook, cell_name};
 use grid::Grid;
 
-/// Reason for a unit that was said beside the sheet.
 pub const UNIT_SAID: &str = "as was said";
-/// Greatest size of a file, bytes.
 const MOST_BYTES: usize = 16 << 20;
 
-/// Error of reading a specification sheet.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{file}{}{}: found {found}; accepted: {accepted}",
     if sheet.is_empty() { String::new() } else { format!(", sheet `{sheet}`") },
     cell.as_ref().map(|cell| format!(", cell {cell}")).unwrap_or_default())]
 pub struct SheetError {
-    /// Name of the file.
     pub file: String,
-    /// Name of the sheet. Empty for CSV, and if the error is in no sheet.
+    /// Empty for CSV, and if the error is in no sheet.
     pub sheet: String,
-    /// Name of the cell, such as `C12`. `None` if the error is in no cell.
+    /// Name such as `C12`. `None` if the error is in no cell.
     pub cell: Option<String>,
-    /// Description of what was found.
     pub found: String,
-    /// Description of what is accepted.
     pub accepted: String,
 }
 
-/// A row of a specification sheet. Lengths are in the unit of the sheet.
+/// Lengths are in the unit of the sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SheetRow {
-    /// Code of the row, once in the sheet: that of the sheet, or else `r` with the number of the row.
+    /// Unique in the sheet: as written, or else `r` with the number of the row.
     pub code: String,
-    /// Description, as written.
+    /// As written.
     pub description: String,
     /// Number of the row in the sheet.
     pub line: usize,
@@ -57,50 +51,40 @@ pub struct SheetRow {
     pub plus: Option<f64>,
     /// Greatest shortfall, not negative. `None` as of `plus`.
     pub minus: Option<f64>,
-    /// Specified length in each size of the sheet. `None` for an empty cell.
+    /// One for each size of the sheet. `None` for an empty cell.
     pub lengths: Vec<Option<f64>>,
 }
 
-/// Unit of a sheet, with the words that say it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SaidUnit {
-    /// Unit of the lengths.
     pub unit: Unit,
     /// Reason, such as `cell B3 says cm`.
     pub why: String,
 }
 
-/// A specification sheet as read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpecSheet {
-    /// Name of the file.
     pub file: String,
-    /// Name of the sheet in its workbook. Empty for CSV.
+    /// Name in the workbook. Empty for CSV.
     pub sheet: String,
-    /// Unit that the sheet says. `None` if it says none, or several.
+    /// `None` if the sheet says none, or several.
     pub unit: Option<SaidUnit>,
-    /// Names of the sizes, in the order of the columns.
     pub sizes: Vec<String>,
-    /// Rows, in the order of the sheet.
     pub rows: Vec<SheetRow>,
-    /// Remarks for the reader, as sentences.
+    /// Sentences for the reader.
     pub notes: Vec<String>,
 }
 
 /// Sheet and unit of a file that it does not say itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SheetAsked<'a> {
-    /// Name of the sheet in a workbook. `None` for the first one with a table.
+    /// `None` for the first sheet with a table.
     pub sheet: Option<&'a str>,
-    /// Unit of the lengths. `None` for that of the sheet.
+    /// `None` for the unit of the sheet.
     pub unit: Option<Unit>,
 }
 
-/// Reads a specification sheet from a file in CSV or XLSX. `file` is its name for messages, and `sizes` are those of the
-/// pattern, by which columns are known.
-///
-/// # Errors
-/// [`SheetError`] for bytes that are no such file, for a file without such a table, and for a cell that is no length.
+/// Reads CSV or XLSX. `file` is its name for messages; columns are known by the pattern's `sizes`.
 pub fn read(bytes: &[u8], file: &str, sizes: &[String], asked: SheetAsked<'_>) -> Result<SpecSheet, SheetError> {
     let fail = |found: String, accepted: &str| SheetError {
         file: file.to_owned(),

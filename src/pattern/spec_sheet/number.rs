@@ -5,18 +5,14 @@ use crate::dxf::Unit;
 /// Greatest denominator of a fraction: rulers are divided to 1/64 of an inch.
 const FINEST: u32 = 64;
 
-/// A number with its unit, as written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Written {
-    /// Number, in its unit.
     pub value: f64,
-    /// Unit that is written after it. `None` for a plain number.
+    /// `None` for a plain number.
     pub unit: Option<Unit>,
-    /// True if a fraction was written, as of inches.
     pub is_fraction: bool,
 }
 
-/// Tolerance above and below, as written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WrittenTolerance {
     /// Greatest excess over the specification.
@@ -25,8 +21,6 @@ pub struct WrittenTolerance {
     pub minus: Written,
 }
 
-/// Reads a cell that holds nothing but a length. `None` for any other text.
-#[must_use]
 pub fn length(cell: &str) -> Option<Written> {
     let cell = cell.trim();
     let (written, rest) = leading(cell)?;
@@ -34,7 +28,6 @@ pub fn length(cell: &str) -> Option<Written> {
 }
 
 /// Reads a tolerance: `1/2`, `±0.5`, `+/- 1/4"`, `+1/2 -1/4`. A single number holds both ways.
-#[must_use]
 pub fn tolerance(cell: &str) -> Option<WrittenTolerance> {
     let is_sign = |c: char| matches!(c, '+' | '-' | '\u{2212}' | '\u{2013}' | '±' | '/' | ',' | ';' | ' ' | '(' | ')');
     let cell = cell.trim();
@@ -54,15 +47,13 @@ pub fn tolerance(cell: &str) -> Option<WrittenTolerance> {
     Some(WrittenTolerance { plus, minus })
 }
 
-/// Reads the number at the beginning of a text, with its unit, and returns the rest. `None` if no number begins there,
-/// or one that can be read in two ways, as `1,000`.
+/// Reads number and unit. `None` if no number begins there, or one that can be read in two ways, as `1,000`.
 pub fn leading(text: &str) -> Option<(Written, &str)> {
     let (value, is_fraction, rest) = number(text)?;
     let (unit, rest) = unit(rest);
     Some((Written { value, unit, is_fraction }, rest))
 }
 
-/// Number at the beginning of a text, true for a fraction, and the rest.
 fn number(text: &str) -> Option<(f64, bool, &str)> {
     if let Some((share, rest)) = vulgar(text) {
         return Some((share, true, rest));
@@ -95,12 +86,11 @@ fn number(text: &str) -> Option<(f64, bool, &str)> {
     }
 }
 
-/// Digits at the beginning of a text, and the rest.
 fn digits(text: &str) -> (&str, &str) {
     text.split_at(text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len()))
 }
 
-/// Fraction whose numerator is read already, and the rest. Its denominator is a power of two.
+/// Reads on from the numerator `top`. The denominator is a power of two.
 fn fraction<'t>(top: &str, rest: &'t str) -> Option<(f64, &'t str)> {
     let (bottom, rest) = digits(rest.strip_prefix(['/', '\u{2044}'])?);
     let (top, bottom): (u32, u32) = (top.parse().ok()?, bottom.parse().ok()?);
@@ -109,7 +99,6 @@ fn fraction<'t>(top: &str, rest: &'t str) -> Option<(f64, &'t str)> {
     (is_ruled && !rest.starts_with('/')).then(|| (f64::from(top) / f64::from(bottom), rest))
 }
 
-/// Fraction in one character, and the rest.
 fn vulgar(text: &str) -> Option<(f64, &str)> {
     let first = text.chars().next()?;
     let eighths = match first {
@@ -125,7 +114,6 @@ fn vulgar(text: &str) -> Option<(f64, &str)> {
     Some((f64::from(eighths) / 8.0, &text[first.len_utf8()..]))
 }
 
-/// Unit at the beginning of a text, and the rest.
 fn unit(text: &str) -> (Option<Unit>, &str) {
     let rest = text.trim_start();
     for (mark, unit) in [("\"", Unit::In), ("\u{201d}", Unit::In), ("\u{2033}", Unit::In), ("''", Unit::In)] {
@@ -140,8 +128,6 @@ fn unit(text: &str) -> (Option<Unit>, &str) {
     }
 }
 
-/// Unit that a word names.
-#[must_use]
 pub fn unit_of_word(word: &str) -> Option<Unit> {
     match word.to_lowercase().as_str() {
         "in" | "ins" | "inch" | "inches" | "zoll" | "pouces" | "pulgadas" | "pollici" => Some(Unit::In),

@@ -13,41 +13,33 @@ const NONE: [&str; 12] = ["", "-", "\u{2013}", "\u{2014}", "/", "x", "n/a", "na"
 /// Days that a spreadsheet makes of fractions such as 1/2: 2000 to 2099, counted from 1900.
 const DAYS: std::ops::Range<f64> = 36_526.0..73_051.0;
 
-/// A cell that is no length.
 pub struct Fault {
-    /// Number of the row.
     pub line: usize,
-    /// Column, from 0.
+    /// From 0.
     pub column: usize,
-    /// Description of what was found.
     pub found: String,
-    /// Description of what is accepted.
     pub accepted: &'static str,
 }
 
-/// A row of the table as written.
 pub struct WrittenRow {
-    /// Code, once in the sheet.
+    /// Unique in the sheet.
     pub code: String,
-    /// Description.
     pub description: String,
     /// Number of the row in the sheet.
     pub line: usize,
-    /// Tolerance. `None` for an empty cell.
+    /// `None` for an empty cell.
     pub tolerance: Option<WrittenTolerance>,
-    /// Lengths by size. `None` for an empty cell.
+    /// By size. `None` for an empty cell.
     pub lengths: Vec<Option<Written>>,
 }
 
-/// Rows of a table, and remarks on rows that are left out.
 pub struct Cells {
-    /// Rows with lengths.
     pub rows: Vec<WrittenRow>,
-    /// Remarks, as sentences.
+    /// Sentences on rows that are left out.
     pub notes: Vec<String>,
 }
 
-/// Reads the rows of a table. Rows without lengths, such as titles and notes, are left out.
+/// Leaves out rows without lengths, such as titles and notes.
 pub fn cells(grid: &Grid, columns: &Columns) -> Result<Cells, Fault> {
     let mut found = Cells { rows: Vec::new(), notes: Vec::new() };
     let mut codes = BTreeSet::new();
@@ -80,7 +72,7 @@ pub fn cells(grid: &Grid, columns: &Columns) -> Result<Cells, Fault> {
     Ok(found)
 }
 
-/// Checks the cell of a size. The error is what was found, and what is accepted.
+/// The error is what was found, and what is accepted.
 fn check(text: &str, length: Option<Written>) -> Result<(), (String, &'static str)> {
     match length {
         Some(Written { value, unit: None, .. }) if DAYS.contains(&value) => {
@@ -94,7 +86,7 @@ fn check(text: &str, length: Option<Written>) -> Result<(), (String, &'static st
     }
 }
 
-/// Tolerance of a row. One that merged cells hold is that of all their rows.
+/// Merged cells hold for all their rows.
 fn tolerance(grid: &Grid, columns: &Columns, line: usize) -> Result<Option<WrittenTolerance>, Fault> {
     let Some([plus, minus]) = columns.tolerance else { return Ok(None) };
     let read = |column: usize| {
@@ -120,7 +112,7 @@ fn tolerance(grid: &Grid, columns: &Columns, line: usize) -> Result<Option<Writt
     Ok(both.or(down).map(|found| WrittenTolerance { minus: down.unwrap_or(found).minus, ..found }))
 }
 
-/// Rows with their lengths in the unit of the sheet. A length in another unit, by its own words, is converted.
+/// Converts a length that has another unit by its own words.
 pub fn in_unit(rows: Vec<WrittenRow>, unit: Option<Unit>) -> Vec<SheetRow> {
     let value = |written: Written| match (written.unit, unit) {
         (Some(own), Some(unit)) => written.value * own.mm_per_unit() / unit.mm_per_unit(),

@@ -9,10 +9,9 @@ use crate::dxf::Unit;
 use crate::pom::{Measure, OwnKind, Point};
 use geom::units::{from_mm, mm};
 
-/// A rule for a point of measure.
 struct Rule {
     point: Point,
-    /// Words, one of each group.
+    /// One word of each group is needed.
     groups: &'static [&'static [&'static str]],
     /// Words that may be there too.
     allowed: &'static [&'static str],
@@ -43,7 +42,7 @@ const IDLE: [&str; 17] = [
     "centre",
 ];
 
-/// Rules of all points. Where several hold, those with the most groups count.
+/// If several hold, those with the most groups count.
 const RULES: [Rule; 50] = [
     rule(Point::HalfChest, &[&["chest"]], &["armhole", "across"]),
     rule(Point::HalfChest, &[&["width"], &["armhole"]], &[]),
@@ -97,16 +96,14 @@ const RULES: [Rule; 50] = [
     rule(Point::HalfKnee, &[&["knee"]], &["leg"]),
 ];
 
-/// Points that a description may mean.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Meant {
-    /// Points by all words of the description, in the order of [`Point::ALL`].
+    /// Points by all words, in the order of [`Point::ALL`].
     pub sure: Vec<Measure>,
-    /// Points by some of its words.
     pub partly: Vec<Measure>,
 }
 
-/// Points that the words and the place of a description name. `unit` is that of distances without one.
+/// `unit` is that of distances without one.
 pub fn meant(told: &Told, unit: Unit) -> Meant {
     if let Some(place) = told.place {
         return at_place(told, place, unit);
@@ -128,20 +125,19 @@ pub fn meant(told: &Told, unit: Unit) -> Meant {
     Meant { sure: points(&best), partly: points(&RULES.iter().filter(holds).collect::<Vec<_>>()) }
 }
 
-/// A point at a place.
+/// Point at a place.
 struct Placed {
     anchor: Anchor,
     is_above: bool,
-    /// Words of which a description needs one.
+    /// Words of which one is needed.
     needs: &'static [&'static str],
-    /// Words that it may have too.
     allowed: &'static [&'static str],
     kind: OwnKind,
     /// Point whose place is defined so, and its distance, mm.
     point: Option<(Point, f64)>,
 }
 
-/// Greatest difference of a distance from that of a defined point, mm: an inch is 25 mm to those who measure.
+/// Greatest difference of a distance from that of a defined point: an inch is 25 mm to those who measure.
 const SAME_PLACE_MM: f64 = 2.0;
 const GIRTHS: &[&str] = &["chest", "waist", "hip", "width", "hem", "circumference"];
 const NAMES: &[&str] = &["chest", "waist", "hip", "high", "low", "upper", "skirt", "front", "back"];
@@ -162,7 +158,7 @@ const BICEP: Option<(Point, f64)> = Some((Point::HalfBicep, 25.0));
 const HIP: Option<(Point, f64)> = Some((Point::HalfHip, 80.0));
 const THIGH: Option<(Point, f64)> = Some((Point::HalfThigh, 25.0));
 
-/// Points by their places. The first that fits counts.
+/// First that fits counts.
 const PLACES: [Placed; 12] = [
     placed(Anchor::Armhole, false, &["bicep"], &["sleeve"], OwnKind::SleeveBelowArmhole, BICEP),
     placed(Anchor::Armhole, false, &["sleeve"], &["width", "bicep"], OwnKind::SleeveBelowArmhole, BICEP),
@@ -206,7 +202,6 @@ const PLACES: [Placed; 12] = [
     ),
 ];
 
-/// Points at a place.
 fn at_place(told: &Told, place: Place, unit: Unit) -> Meant {
     let at_m = from_mm(place.distance * place.unit.unwrap_or(unit).mm_per_unit());
     let fits = |placed: &&Placed| {

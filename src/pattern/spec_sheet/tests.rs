@@ -10,7 +10,7 @@ use crate::draft::Model;
 use crate::pom::Measure;
 use geom::units::mm;
 
-/// Lengths of a drafted style in its sizes, mm.
+/// Lengths in the sizes of a drafted style, mm.
 struct Drafted(Vec<Style>);
 
 impl Drafted {
@@ -30,7 +30,7 @@ fn read_sheet(bytes: &[u8], file: &str) -> Result<SpecSheet, SheetError> {
     read(bytes, file, &SIZES.map(str::to_owned), SheetAsked::default())
 }
 
-/// Reads and matches a sheet, and checks the point of each row: empty for a row that is asked for.
+/// Expects the point of each row: empty for a row that is asked for.
 fn check_sheet(bytes: &[u8], file: &str, model: Model, unit: Unit, expect: &[(&str, &str)]) -> Vec<SpecLine> {
     let sheet = read_sheet(bytes, file).expect("a sheet");
     assert_eq!(sheet.sizes, SIZES, "{file}");
@@ -51,7 +51,6 @@ fn name(found: &RowMatch) -> String {
     if let RowMatch::Is(target, _) = found { target.to_string() } else { String::new() }
 }
 
-/// A T-shirt in inches, as a merchandiser keeps it in CSV.
 const INCHES: &str = "\
 Style:,TS-1042,,Season:,SS27,,
 Spec sheet - all measurements in inches,,,,,,
@@ -105,7 +104,6 @@ fn inches() -> Vec<SpecLine> {
     check_sheet(INCHES.as_bytes(), "tee.csv", Model::Tshirt, Unit::In, &expect)
 }
 
-/// A table of texts and lengths into a sheet. An empty text is an empty cell.
 fn write_rows(sheet: &mut Worksheet, from: u32, rows: &[(&[&str], &[f64])]) -> Result<(), XlsxError> {
     for (row, (texts, lengths)) in (from..).zip(rows) {
         for (column, text) in (0..).zip(*texts).filter(|(_, text)| !text.is_empty()) {
@@ -118,7 +116,7 @@ fn write_rows(sheet: &mut Worksheet, from: u32, rows: &[(&[&str], &[f64])]) -> R
     Ok(())
 }
 
-/// Trousers in centimetres: a cover sheet, merged titles and notes, tolerances in two columns.
+/// Centimetres: a cover sheet, merged titles and notes, tolerances in two columns.
 fn trousers() -> Result<Vec<u8>, XlsxError> {
     let mut book = Writer::new();
     book.add_worksheet().set_name("Cover")?.write(0, 0, "Style TR-7, measurements in the next sheet")?;
@@ -152,7 +150,7 @@ fn trousers() -> Result<Vec<u8>, XlsxError> {
     book.save_to_buffer()
 }
 
-/// A T-shirt in German words: heads in two rows, a tolerance that merged cells share, no unit.
+/// T-shirt in German words: heads in two rows, a tolerance that merged cells share, no unit.
 fn german() -> Result<Vec<u8>, XlsxError> {
     let mut book = Writer::new();
     let sheet = book.add_worksheet().set_name("Maßtabelle")?;
@@ -258,7 +256,6 @@ fn deviations_are_those_by_hand() {
     assert!((steps[1].expect("a step") - 31.75).abs() < 1e-9 && (steps[2].expect("a step") - 28.575).abs() < 1e-9);
 }
 
-/// Outcome of one row with three lengths, beside the drafted T-shirt.
 fn one_row(description: &str, lengths: [f64; 3], head: &str) -> RowMatch {
     let text = format!("code,description,{head}S,M,L\nA,{description},{},{},{}\n", lengths[0], lengths[1], lengths[2]);
     let sheet = read_sheet(text.as_bytes(), "a.csv").expect("a sheet");

@@ -8,8 +8,7 @@ use super::rows::WrittenRow;
 use crate::dxf::Unit;
 use crate::workbook::cell_name;
 
-/// Unit that a sheet says: in a cell above its rows, beside its lengths, or by fractions, which only inches have. `None`
-/// if it says none, or several.
+/// Unit in a cell above the rows, beside a length, or of fractions, which only inches have. `None` for none or several.
 pub fn said(grid: &Grid, columns: &Columns, rows: &[WrittenRow]) -> Option<SaidUnit> {
     let above = grid.rows.iter().filter(|row| row.line <= columns.heads[1]);
     let cells = above.flat_map(|row| row.cells.iter().enumerate().map(|(column, text)| (row.line, column, text)));
@@ -36,7 +35,7 @@ pub fn said(grid: &Grid, columns: &Columns, rows: &[WrittenRow]) -> Option<SaidU
     has_fractions.then(|| SaidUnit { unit: Unit::In, why: "lengths are written in fractions".to_owned() })
 }
 
-/// Units that a text names. The word `in` is one where it stands alone, in brackets or at the end after a colon.
+/// The word `in` is a unit where it stands alone, in brackets or at the end after a colon.
 fn units(text: &str) -> Vec<Unit> {
     let words: Vec<&str> = text.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).collect();
     let lower = text.trim().trim_end_matches('.').to_lowercase();

@@ -7,24 +7,18 @@ use crate::trade::{self, Class, Face};
 /// Part of a garment that a place is told from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
-    /// Lower end of the armhole.
     Armhole,
-    /// High point of the shoulder.
     HighPoint,
-    /// Lower edge.
     Hem,
-    /// Waist, or the upper edge of trousers and skirts.
+    /// Also the upper edge of trousers and skirts.
     Waist,
     /// Lower edge of the waistband.
     Waistband,
-    /// Fork of trousers.
     Crotch,
-    /// Lower edge of the sleeve.
     Cuff,
 }
 
 impl Anchor {
-    /// Part that a word is.
     fn of(word: &str) -> Option<Self> {
         Some(match word {
             "armhole" => Self::Armhole,
@@ -38,7 +32,6 @@ impl Anchor {
         })
     }
 
-    /// Word for the part.
     fn word(self) -> &'static str {
         match self {
             Self::Armhole => "armhole",
@@ -52,54 +45,42 @@ impl Anchor {
     }
 }
 
-/// Place that a description names: a distance from a part of the garment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
-    /// Part that the place is told from.
     pub anchor: Anchor,
-    /// True above the part, false below it.
     pub is_above: bool,
-    /// Distance.
     pub distance: f64,
     /// Unit of the distance. `None` if it is not written.
     pub unit: Option<Unit>,
 }
 
-/// Part of a girth that a length is, by its description.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
-    /// Half, as it is measured flat.
+    /// As it is measured flat.
     Half,
-    /// All round.
     Whole,
 }
 
-/// A description as read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Told {
     /// Words of the trade, in one form each, in order.
     pub words: Vec<&'static str>,
-    /// Place that is named.
     pub place: Option<Place>,
-    /// Extent that is named.
     pub extent: Option<Extent>,
 }
 
 impl Told {
-    /// True if a word is in the description.
     pub fn has(&self, word: &str) -> bool {
         self.words.contains(&word)
     }
 }
 
-/// A word of a description, or a number.
 #[derive(Clone, Debug, PartialEq)]
 enum Token {
     Word(&'static str),
     Number { value: f64, unit: Option<Unit>, is_fraction: bool },
 }
 
-/// Terms of several words, and the word that stands for them.
 const TERMS: [(&[&str], &str); 31] = [
     (&["high", "point", "of", "the", "shoulder"], "hps"),
     (&["highest", "point", "of", "shoulder"], "hps"),
@@ -215,12 +196,10 @@ const WORDS: [(&str, &[&str]); 75] = [
     ("x", &["x"]),
 ];
 
-/// Words of the way from a part of the garment.
 const WAYS: [&str; 5] = ["below", "above", "from", "down", "up"];
 /// Words between a direction and the part of the garment that it is from.
 const BETWEEN: [&str; 7] = ["from", "down", "up", "hem", "seam", "natural", "upper"];
 
-/// Reads a description.
 pub fn read(description: &str) -> Told {
     let mut tokens = tokens(description);
     let mut extent = None;
@@ -250,7 +229,7 @@ pub fn read(description: &str) -> Told {
     Told { words, place, extent }
 }
 
-/// Takes the place that a description names out of its tokens. A part without a distance stays among them as a word.
+/// Takes the place out of the tokens. A part without a distance stays among them as a word.
 fn place(tokens: &mut Vec<Token>) -> Option<Place> {
     let word = |token: Option<&Token>| match token {
         Some(Token::Word(word)) => Some(*word),
@@ -283,7 +262,7 @@ fn place(tokens: &mut Vec<Token>) -> Option<Place> {
     None
 }
 
-/// Words and numbers of a description. Words that say nothing of lengths are left out.
+/// Leaves out words that say nothing of lengths.
 fn tokens(description: &str) -> Vec<Token> {
     let plain = initials(&description.to_lowercase());
     let (mut found, mut words): (Vec<Token>, Vec<String>) = (Vec::new(), Vec::new());
@@ -313,7 +292,7 @@ fn tokens(description: &str) -> Vec<Token> {
     found
 }
 
-/// Initials without the points and strokes between them: `c.b.` and `u/a` are `cb` and `ua`.
+/// Drops the points and strokes: `c.b.` and `u/a` are `cb` and `ua`.
 fn initials(text: &str) -> String {
     let letters: Vec<char> = text.chars().collect();
     let is_letter = |k: usize| letters.get(k).is_some_and(|c| c.is_alphabetic());
@@ -322,7 +301,6 @@ fn initials(text: &str) -> String {
     (0..letters.len()).filter(|k| !is_between(*k)).map(|k| letters[k]).collect()
 }
 
-/// Words in one form each, with terms of several words as one.
 fn terms(written: &[String]) -> Vec<Token> {
     let words: Vec<&str> = written.iter().map(|word| if word == "center" { "centre" } else { word }).collect();
     let mut found = Vec::new();
@@ -353,12 +331,10 @@ fn forms(word: &str) -> Vec<&'static str> {
     parts.unwrap_or_else(|| known(word).into_iter().collect())
 }
 
-/// One form of a word of lengths.
 fn own(word: &str) -> Option<&'static str> {
     WORDS.iter().find(|(_, forms)| forms.contains(&word)).map(|(known, _)| *known)
 }
 
-/// One form of a word: of the words of lengths, or of those of pieces.
 fn known(word: &str) -> Option<&'static str> {
     if let Some(known) = own(word) {
         return Some(known);

@@ -7,22 +7,20 @@ use crate::piece::Piece;
 use geom::V2;
 use geom::polyline::Polyline;
 
-/// Distance below which a turn point counts as on a vertex of the outline, m.
+/// Distance below which a turn point counts as on a vertex of the outline.
 const ON_OUTLINE_M: f64 = 0.5e-3;
-/// Turning angle from which a vertex is a corner if the file marks no corners, degrees. Of 296 corners that six files
-/// mark, 265 turn by as much, and no other vertex does.
+/// Turning angle from which a vertex is a corner if the file marks no corners. Of 296 corners that six files mark, 265
+/// turn by as much, and no other vertex does.
 const CORNER_TURN_DEG: f64 = 30.0;
-/// Turning angle from which a vertex is a corner besides the marked ones, degrees. A vertex of a sampled curve turns
-/// less.
+/// Turning angle from which a vertex is a corner besides the marked ones. A vertex of a sampled curve turns less.
 const SHARP_TURN_DEG: f64 = 45.0;
-/// Turning angle below which a marked vertex is no corner if an internal line meets the outline there, degrees.
+/// Turning angle below which a marked vertex is no corner if an internal line meets the outline there.
 const SLIGHT_TURN_DEG: f64 = 20.0;
-/// Least distance along the outline of an unmarked corner from the next corner, m. Sharp vertices nearer than that form
-/// a notch or a step.
+/// Least distance of an unmarked corner from the next. Sharp vertices nearer than that form a notch or a step.
 const APART_M: f64 = 15e-3;
 
-/// Corners of an outline as vertex indices, counter-clockwise from the first turn point in the file: marked vertices
-/// and isolated sharp ones. If the file marks none, all vertices with a large turning angle.
+/// Vertex indices, counter-clockwise from the first turn point in the file: marked vertices and isolated sharp ones. If
+/// the file marks none, all vertices with a large turning angle.
 pub(crate) fn corner_vertices(piece: &Piece) -> Vec<usize> {
     let outline = piece.seam_outline();
     let nearest = |point: &V2| {
@@ -46,13 +44,12 @@ pub(crate) fn corner_vertices(piece: &Piece) -> Vec<usize> {
     (0..outline.len()).filter(|&i| turn_deg(outline, i) >= CORNER_TURN_DEG).collect()
 }
 
-/// Turning angle of an outline at a vertex, to either side, degrees.
+/// To either side.
 fn turn_deg(outline: &[V2], i: usize) -> f64 {
     let n = outline.len();
     (outline[i] - outline[(i + n - 1) % n]).angle(&(outline[(i + 1) % n] - outline[i])).to_degrees()
 }
 
-/// Marked corners, and sharp vertices far from any other corner.
 fn with_unmarked(outline: &[V2], marked: BTreeSet<usize>) -> BTreeSet<usize> {
     let n = outline.len();
     let is_corner = |i: usize| marked.contains(&i) || turn_deg(outline, i) >= SHARP_TURN_DEG;
@@ -76,7 +73,7 @@ fn with_unmarked(outline: &[V2], marked: BTreeSet<usize>) -> BTreeSet<usize> {
     marked.into_iter().chain(found).collect()
 }
 
-/// Edge of an outline that begins at the corner `from` and ends `span` corners later, counter-clockwise.
+/// Begins at the corner `from` and ends `span` corners later, counter-clockwise.
 pub(super) fn cut_edge(outline: &[V2], corners: &[usize], from: usize, span: usize, name: Option<String>) -> Edge {
     let n = outline.len();
     let corner = |k: usize| corners[(from + k) % corners.len()];
@@ -94,7 +91,7 @@ pub(super) fn mirrored(point: V2) -> V2 {
     V2::new(-point.x, point.y)
 }
 
-/// Mirrors an edge and reverses it, so that it is counter-clockwise again.
+/// Mirrors and reverses an edge, so that it is counter-clockwise again.
 pub(super) fn mirror_edge(edge: &mut Edge) {
     let length = edge.line.length();
     let points = edge.line.points().iter().rev().map(|&p| mirrored(p)).collect();

@@ -14,28 +14,25 @@ use geom::V2;
 pub(super) const CORNER_WORTH: f64 = 0.03;
 /// Greatest distance of corresponding corners, divided by the size of the piece.
 const TOO_FAR: f64 = 0.15;
-/// Number of rounds of scaling and matching. The first round scales by the bounding boxes, the others fit the last
-/// match.
+/// First round scales by the bounding boxes, the others fit the last match.
 const ROUNDS: usize = 3;
 /// Number of vertices that are tried for the first corner.
 const STARTS: usize = 8;
 
-/// A corner without a counterpart on an outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Lost {
-    /// Index of the corner.
     pub corner: usize,
-    /// Distance from the vertex that matches best, m.
+    /// Distance from the vertex that matches best.
     pub away_m: f64,
 }
 
-/// Positions of vertices of an outline as shares of its width and height, rounded to 1e-5.
+/// Shares of width and height, rounded to 1e-5.
 pub(crate) fn shares(outline: &[V2], vertices: &[usize]) -> Vec<[f64; 2]> {
     let rounded = |share: f64| (share * 1e5).round() / 1e5;
     places(outline, vertices).into_iter().map(|place| [place.x, place.y].map(rounded)).collect()
 }
 
-/// Positions of vertices of an outline as shares of its width and height.
+/// Shares of width and height.
 pub(super) fn places(outline: &[V2], vertices: &[usize]) -> Vec<V2> {
     let [low, high] = extent(outline);
     let share = |at: V2, axis: usize| {
@@ -45,11 +42,7 @@ pub(super) fn places(outline: &[V2], vertices: &[usize]) -> Vec<V2> {
     vertices.iter().map(|&vertex| V2::new(share(outline[vertex], 0), share(outline[vertex], 1))).collect()
 }
 
-/// Vertices of the outline that correspond to corners of another size, counter-clockwise as drawn. `shares` are the
-/// positions of these corners in that size, as of [`shares`].
-///
-/// # Errors
-/// [`Lost`] if a corner has no counterpart.
+/// Vertices counter-clockwise as drawn. `shares` are the corners' positions in another size, as of [`shares`].
 pub(super) fn corresponding(piece: &Piece, shares: &[[f64; 2]]) -> Result<Vec<usize>, Lost> {
     let mut worth = vec![CORNER_WORTH * CORNER_WORTH; piece.seam_outline().len()];
     corner_vertices(piece).iter().for_each(|&corner| worth[corner] = 0.0);
@@ -59,9 +52,6 @@ pub(super) fn corresponding(piece: &Piece, shares: &[[f64; 2]]) -> Result<Vec<us
 
 /// Vertices of an outline, in cyclic order, for corners at `places` (shares of width and height). `unlike(corner,
 /// vertex)` is the penalty of a match: the square of a distance divided by the size of the piece.
-///
-/// # Errors
-/// [`Lost`] if a corner has no counterpart.
 pub(super) fn matched(outline: &[V2], places: &[V2], unlike: impl Fn(usize, usize) -> f64) -> Result<Vec<usize>, Lost> {
     let [low, high] = extent(outline);
     let size = (high - low).norm();
@@ -86,7 +76,7 @@ pub(super) fn matched(outline: &[V2], places: &[V2], unlike: impl Fn(usize, usiz
     }
 }
 
-/// Bounding box of points: the least and greatest coordinates.
+/// Least and greatest coordinates.
 pub(super) fn extent(points: &[V2]) -> [V2; 2] {
     let both = points.iter().map(|p| [*p, *p]).reduce(|[low, high], [p, _]| [low.inf(&p), high.sup(&p)]);
     both.unwrap_or_default()
@@ -103,7 +93,7 @@ impl Scaling {
         point.component_mul(&self.scale) + self.shift
     }
 
-    /// Least-squares fit of points to their partners, along each axis.
+    /// Fits by least squares along each axis.
     fn fitted(from: &[V2], to: impl Iterator<Item = V2> + Clone) -> Self {
         let count = from.len().max(1) as f64;
         let centre = from.iter().sum::<V2>() / count;
@@ -128,7 +118,6 @@ fn in_order(count: usize, vertices: usize, cost: impl Fn(usize, usize) -> f64) -
     ways.reduce(|best, way| if way.cost < best.cost { way } else { best }).map_or_else(Vec::new, |way| way.vertices)
 }
 
-/// Vertex of each corner, and sum of costs.
 struct Assignment {
     cost: f64,
     vertices: Vec<usize>,

@@ -48,7 +48,6 @@ pub(crate) fn reference(pieces: &[Piece], index: usize) -> String {
     }
 }
 
-/// Words of a name without those of the size.
 pub(crate) fn without(name: &str, size: &str) -> Vec<String> {
     let (mut left, size) = (words(name), words(size));
     while let Some(at) = left.windows(size.len().max(1)).position(|some| *some == size[..]) {
@@ -57,7 +56,6 @@ pub(crate) fn without(name: &str, size: &str) -> Vec<String> {
     left
 }
 
-/// Words of a name in lower case, without separators.
 fn words(name: &str) -> Vec<String> {
     let words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     words.map(str::to_lowercase).collect()

@@ -17,15 +17,11 @@ const HEADING_REACH: f64 = 0.02;
 const RADIAN_WORTH: f64 = 0.05;
 /// Greatest change of a heading at a corner between neighbouring sizes with corresponding vertex indices, radians.
 const SAME_HEADING: f64 = 0.35;
-/// Distance below which a grade point counts as on a vertex, m.
 const ON_VERTEX_M: f64 = 0.5e-3;
 
 /// Corners, as vertices of an outline, that the edges of a seam file refer to. `places` are the shares in its
 /// `corners_at`; without any, the corners are those of the piece. They are found on the size `made_on`, if the nest has
 /// it, and tracked from there.
-///
-/// # Errors
-/// [`Lost`] if a corner has no counterpart.
 pub(crate) fn corners_of(piece: &Piece, made_on: Option<&str>, places: &[[f64; 2]]) -> Result<Vec<usize>, Lost> {
     let found = |piece: &Piece| match places {
         [] => Ok(corner_vertices(piece)),
@@ -46,10 +42,8 @@ pub(crate) fn corners_of(piece: &Piece, made_on: Option<&str>, places: &[[f64; 2
     Ok(corners.swap_remove(last - low))
 }
 
-/// Vertices in all sizes of a piece, from the smallest, that correspond to corners of the size `sample`.
-///
-/// # Errors
-/// The index of the size in which a corner has no counterpart, and [`Lost`].
+/// Vertices in all sizes of a piece, from the smallest, that correspond to corners of the size `sample`. The error has
+/// the index of the size in which a corner has no counterpart.
 pub(crate) fn in_sizes(sizes: &[Piece], sample: usize, corners: &[usize]) -> Result<Vec<Vec<usize>>, (usize, Lost)> {
     let mut found = vec![corners.to_vec(); sizes.len()];
     for size in sample + 1..sizes.len() {
@@ -61,7 +55,7 @@ pub(crate) fn in_sizes(sizes: &[Piece], sample: usize, corners: &[usize]) -> Res
     Ok(found)
 }
 
-/// Vertices of a piece that correspond to corners of the same piece in the neighbouring size.
+/// Takes the same piece in the neighbouring size.
 fn followed(from: &Piece, corners: &[usize], to: &Piece) -> Result<Vec<usize>, Lost> {
     let (before, after) = (headings(from.seam_outline()), headings(to.seam_outline()));
     let unlike = |corner: usize, vertex: usize| -> [f64; 2] {
@@ -86,7 +80,7 @@ fn followed(from: &Piece, corners: &[usize], to: &Piece) -> Result<Vec<usize>, L
     matched(to.seam_outline(), &places(from.seam_outline(), corners), cost)
 }
 
-/// Offset between the vertex indices of an outline and those of the neighbouring size. `None` if their counts differ.
+/// `None` if the numbers of vertices differ.
 fn index_offset(from: &Piece, to: &Piece) -> Option<usize> {
     let (from, to) = (from.seam_outline(), to.seam_outline());
     let count = to.len();
@@ -99,7 +93,7 @@ fn index_offset(from: &Piece, to: &Piece) -> Option<usize> {
     (0..count).min_by(|turn, other| apart(*turn).total_cmp(&apart(*other)))
 }
 
-/// Headings of an outline before and after each vertex, radians.
+/// Before and after each vertex, radians.
 fn headings(outline: &[V2]) -> Vec<[f64; 2]> {
     let count = outline.len();
     let [low, high] = extent(outline);
@@ -128,7 +122,7 @@ fn turning(piece: &Piece) -> Vec<bool> {
     turns
 }
 
-/// Grade rule of each vertex that has one.
+/// `None` for a vertex without a grade rule.
 fn rules(piece: &Piece) -> Vec<Option<u32>> {
     let rule_at = |vertex: &V2| {
         let is_on = |point: &&crate::piece::GradePoint| !point.is_inner && (point.at - vertex).norm() < ON_VERTEX_M;
@@ -148,7 +142,7 @@ mod tests {
     /// Sizes of this number between which each vertex moves as from the first draft to the last.
     const SIZES: usize = 28;
 
-    /// A drafted piece in many sizes; `kept` says which vertices a size has.
+    /// `kept` says which vertices a size has.
     fn nest(pieces: [&Piece; 2], kept: impl Fn(usize, usize) -> bool) -> Vec<Piece> {
         let size = |number: usize| {
             let share = 2.0 * number as f64 / SIZES as f64 - 0.5;

@@ -5,25 +5,21 @@ use std::collections::BTreeMap;
 use super::{EdgeRef, PathPart, Style, StyleMeasurement};
 use crate::garment::MeasurementKind;
 
-/// Length difference from which the longer side of a seam counts as eased into the shorter one, m.
+/// Length difference from which the longer side of a seam counts as eased into the shorter one.
 const EASED_M: f64 = 1e-3;
 
-/// One end of an edge. In a chain it stands for the whole edge, walked to this end.
+/// In a chain, an end stands for the whole edge, walked to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct EdgeEnd {
-    /// Edge.
     pub edge: EdgeRef,
-    /// True for the last point of the edge, false for the first.
     pub is_last: bool,
 }
 
 impl EdgeEnd {
-    /// Makes an end of an edge.
     pub fn new(edge: EdgeRef, is_last: bool) -> Self {
         Self { edge, is_last }
     }
 
-    /// Opposite end of the same edge.
     pub fn other(self) -> Self {
         Self { is_last: !self.is_last, ..self }
     }
@@ -75,7 +71,6 @@ impl Style {
         openings
     }
 
-    /// Closed chain of free edges that contains a given edge.
     fn opening_from(&self, first: EdgeRef, partners: &BTreeMap<EdgeEnd, EdgeEnd>) -> Option<Vec<EdgeRef>> {
         let mut opening = vec![first];
         // From the end just reached, the walk passes the corner to the next edge. If that is sewn, it crosses the seam.
@@ -95,7 +90,6 @@ impl Style {
         None
     }
 
-    /// Classes of corners that coincide once all seams are sewn.
     fn meeting_corners(&self) -> Corners {
         let mut first = 0;
         let offsets = self.pieces.iter().map(|piece| {
@@ -156,19 +150,17 @@ impl Style {
 
 /// Corners of all pieces, each with the least index of the corners that it meets.
 struct Corners {
-    /// Index of the first corner, and number of corners, of each piece.
+    /// First corner of each piece, and number of its corners.
     offsets: Vec<(usize, usize)>,
     least: Vec<usize>,
 }
 
 impl Corners {
-    /// Corner at an end of an edge.
     fn at(&self, EdgeEnd { edge: EdgeRef { piece, edge }, is_last }: EdgeEnd) -> usize {
         let (offset, n) = self.offsets[piece];
         offset + if is_last { (edge + 1) % n } else { edge }
     }
 
-    /// True if edges form a closed chain: every end meets another end.
     fn close(&self, edges: &[EdgeRef]) -> bool {
         let mut ends: BTreeMap<usize, usize> = BTreeMap::new();
         for end in edges.iter().flat_map(|edge| [EdgeEnd::new(*edge, false), EdgeEnd::new(*edge, true)]) {

@@ -5,37 +5,34 @@ use crate::piece::Notch;
 use geom::V2;
 use geom::polyline::Polyline;
 
-/// An edge of a piece, counter-clockwise as worn.
+/// Counter-clockwise as worn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edge {
-    /// Name, unique in the piece. `None` for a part of the outline that the seam file does not name.
+    /// Unique in the piece. `None` for a part of the outline that the seam file does not name.
     pub name: Option<String>,
-    /// Curve as drawn.
+    /// As drawn.
     pub line: Polyline,
     /// Arc lengths of the corners inside the edge, m.
     pub corners: Vec<f64>,
 }
 
-/// A piece as worn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StylePiece {
     /// Identifier in the seam file, such as `front`.
     pub id: String,
-    /// Role of the piece.
     pub role: Role,
-    /// Edges in counter-clockwise order, which form the closed outline.
+    /// Counter-clockwise; they form the closed outline.
     pub edges: Vec<Edge>,
-    /// Unit vector of the grain.
+    /// Unit vector.
     pub grain: V2,
-    /// Notches on the outline as worn.
+    /// On the outline as worn.
     pub notches: Vec<Notch>,
-    /// Corners, numbered as in the seam file.
+    /// Numbered as in the seam file.
     pub corners: Vec<V2>,
 }
 
 impl StylePiece {
-    /// Closed outline, counter-clockwise.
-    #[must_use]
+    /// Closed, counter-clockwise.
     pub fn outline(&self) -> Vec<V2> {
         self.edges
             .iter()
@@ -44,7 +41,7 @@ impl StylePiece {
             .collect()
     }
 
-    /// Rotates the piece about the origin, counter-clockwise, radians.
+    /// Rotates about the origin, counter-clockwise.
     pub fn turn(&mut self, angle_rad: f64) {
         let (sin, cos) = angle_rad.sin_cos();
         let turned = |p: V2| V2::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y);
@@ -55,7 +52,7 @@ impl StylePiece {
         self.grain = turned(self.grain);
     }
 
-    /// Translates the piece in its plane, m.
+    /// In its plane, m.
     pub fn shift(&mut self, by: V2) {
         self.place(|p| p + by);
     }

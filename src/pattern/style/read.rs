@@ -17,25 +17,21 @@ use geom::units::{from_mm, mm};
 
 /// Finds what the names of one seam file refer to.
 pub(super) struct Reader<'a> {
-    /// Name of the seam file, for messages.
     pub(super) file: &'a str,
-    /// Entries of the seam file.
     pub(super) entries: &'a SeamFile,
 }
 
-/// Edge as a range of corners.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct CornerRange {
     /// Index of the first corner.
     from: usize,
     /// Number of corners from `from` to the end of the edge.
     span: usize,
-    /// Name. `None` if the seam file gives none.
+    /// `None` if the seam file gives none.
     name: Option<String>,
 }
 
 impl Reader<'_> {
-    /// Makes a style of the pieces and the seam file.
     pub(super) fn style(&self, pieces: &[Piece]) -> Result<Style, StyleError> {
         let mut style = Style {
             name: self.entries.name.clone(),
@@ -75,7 +71,6 @@ impl Reader<'_> {
         Ok(style)
     }
 
-    /// Refuses a seam file with entries other than measurements and fit levels.
     pub(super) fn only_measures(&self) -> Result<(), StyleError> {
         match self.entries.piece.keys().next() {
             None if self.entries.seam.is_empty() => Ok(()),
@@ -87,14 +82,12 @@ impl Reader<'_> {
         }
     }
 
-    /// Shrinks the pieces of a style by what the seam file says of the cloth.
     pub(super) fn shrink(&self, style: &mut Style) -> Result<(), StyleError> {
         let refused = |[found, accepted]: [String; 2]| self.contradiction("the cloth".to_owned(), found, accepted);
         style.shrink(Shrinkage::of(self.entries).map_err(refused)?);
         Ok(())
     }
 
-    /// Replaces the measurements and fit levels of a style that has its pieces and seams.
     pub(super) fn measure(&self, style: &mut Style) -> Result<(), StyleError> {
         let sewn: BTreeSet<EdgeRef> =
             style.seams.iter().flat_map(|seam| seam.a.iter().chain(&seam.b)).copied().collect();
@@ -137,7 +130,7 @@ impl Reader<'_> {
         Ok(all)
     }
 
-    /// Drawn piece of an entry, by its block name or its piece name.
+    /// Takes a block name or a piece name.
     fn drawn<'p>(&self, id: &str, entry: &PieceEntry, pieces: &'p [Piece]) -> Result<&'p Piece, StyleError> {
         let place = format!("piece `{id}`");
         let found = called(pieces, &entry.block, self.entries.size.as_deref());
@@ -193,7 +186,7 @@ impl Reader<'_> {
         Ok(StylePiece { id: id.to_owned(), role: entry.role, edges, grain, notches, corners: corner_places })
     }
 
-    /// Corners that the edges of an entry refer to, as vertices of the outline.
+    /// Vertices of the outline.
     fn corners(&self, place: &str, entry: &PieceEntry, drawn: &Piece) -> Result<Vec<usize>, StyleError> {
         corners_of(drawn, self.entries.size.as_deref(), &entry.corners_at).map_err(|Lost { corner, away_m }| {
             let found = format!(
@@ -237,7 +230,7 @@ impl Reader<'_> {
         Ok((Cow::Owned(piece), corners))
     }
 
-    /// Fills the gaps between corner ranges, sorted by their first corner, with unnamed ranges.
+    /// Adds unnamed ranges between those given, which are sorted by their first corner.
     fn without_gaps(
         &self,
         place: &str,
@@ -326,7 +319,7 @@ impl Reader<'_> {
             .collect()
     }
 
-    /// Edge named `piece.edge`.
+    /// Takes `piece.edge`.
     fn edge(&self, place: &str, name: &str, style: &Style) -> Result<EdgeRef, StyleError> {
         let (piece_id, edge_name) = name.split_once('.').unwrap_or((name, ""));
         let ids: Vec<&str> = style.pieces.iter().map(|piece| piece.id.as_str()).collect();
@@ -341,7 +334,7 @@ impl Reader<'_> {
         Ok(EdgeRef { piece, edge })
     }
 
-    /// Point named `piece.edge.start`, `.mid` or `.end`.
+    /// Takes `piece.edge.start`, `.mid` or `.end`.
     fn point(&self, place: &str, name: &str, style: &Style) -> Result<EdgePoint, StyleError> {
         let (edge_name, which) = name.rsplit_once('.').unwrap_or((name, ""));
         let share = match which {

@@ -8,7 +8,7 @@ use super::{Edge, Style, StylePiece};
 use crate::seams::SeamFile;
 use geom::V2;
 
-/// Accepted shrinkage, percent. A cloth that grows has less than 0.
+/// A cloth that grows has less than 0.
 const ACCEPTED_PCT: RangeInclusive<f64> = -10.0..=30.0;
 
 /// Shares of the cut lengths by which the cloth is shorter when it is worn.
@@ -19,10 +19,7 @@ pub struct Shrinkage {
 }
 
 impl Shrinkage {
-    /// Shrinkage that a seam file states.
-    ///
-    /// # Errors
-    /// What was found and what is accepted, for a shrinkage that no cloth has.
+    /// Fails for a shrinkage that no cloth has, with what was found and what is accepted.
     pub fn of(entries: &SeamFile) -> Result<Self, [String; 2]> {
         let share = |key: &str, pct: f64| {
             let [least, most] = [ACCEPTED_PCT.start(), ACCEPTED_PCT.end()];
@@ -35,18 +32,16 @@ impl Shrinkage {
         })
     }
 
-    /// True for a cloth that keeps its lengths.
-    #[must_use]
     pub fn is_none(self) -> bool {
         self == Self::default()
     }
 
-    /// Place of a point once the cloth has shrunk about the origin. `grain` is a unit vector along the warp.
+    /// Shrinks about the origin. `grain` is a unit vector along the warp.
     pub(crate) fn worn(self, p: V2, grain: V2) -> V2 {
         self.scaled(p, grain, |share| 1.0 - share)
     }
 
-    /// Place of a point of the worn cloth before it shrank.
+    /// Place before the cloth shrank.
     pub(crate) fn cut(self, p: V2, grain: V2) -> V2 {
         self.scaled(p, grain, |share| 1.0 / (1.0 - share))
     }
@@ -67,7 +62,6 @@ impl fmt::Display for Shrinkage {
 }
 
 impl Style {
-    /// Shrinks every piece from as it was cut.
     pub(super) fn shrink(&mut self, shrinkage: Shrinkage) {
         if shrinkage != self.shrinkage {
             *self = self.as_cut();
@@ -77,7 +71,6 @@ impl Style {
     }
 
     /// Pieces as they are cut, before the cloth shrinks. Lengths of measurements stay those of the worn pieces.
-    #[must_use]
     pub fn as_cut(&self) -> Self {
         let mut style = self.clone();
         if !self.shrinkage.is_none() {
@@ -89,7 +82,7 @@ impl Style {
 }
 
 impl StylePiece {
-    /// Moves every point by a linear map, given a point and the grain.
+    /// Applies a linear map of a point and the grain.
     fn map(&mut self, image: impl Fn(V2, V2) -> V2) {
         let grain = self.grain;
         let arcs: Vec<Vec<usize>> = self.edges.iter().map(vertices_of_corners).collect();
@@ -100,7 +93,6 @@ impl StylePiece {
     }
 }
 
-/// Vertices of the corners inside an edge.
 fn vertices_of_corners(edge: &Edge) -> Vec<usize> {
     let arcs = edge.line.arcs();
     let nearest = |corner: &f64| {
@@ -116,7 +108,6 @@ mod tests {
     use crate::pom::Point;
     use crate::{Style, StyleError};
 
-    /// Drafted T-shirt with lines at the top of its seam file.
     fn tee(top: &str) -> Result<Style, StyleError> {
         let seams = [top.as_bytes(), Model::Tshirt.seams()].concat();
         Style::read(&Model::Tshirt.drafts()[1].pieces, &seams, "tee.toml")

@@ -139,7 +139,7 @@ fn reinforced_edges_reach_the_mesh() {
     check("edges = [\"front.neck_left\"]\nkind = \"lace\"\nstiffness_n = 20.0", "lace");
 }
 
-/// A piece as a program may draw it: turned about the origin.
+/// Turned about the origin, as a program may draw it.
 fn turned(piece: &Piece, degrees: f64) -> Piece {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let turned = |p: &V2| V2::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y);

@@ -8,14 +8,13 @@ use std::f64::consts::FRAC_PI_2;
 use super::StylePiece;
 use crate::propose;
 
-/// Greatest angle between the grain and an axis at which a piece counts as drawn along the axes, radians: 15 degrees.
-/// Grain lines are drawn by hand, and that of a gore runs down its middle while the gore is drawn along a side.
+/// Greatest angle between the grain and an axis at which a piece counts as drawn along the axes: 15 degrees. Grain
+/// lines are drawn by hand, and that of a gore runs down its middle while the gore is drawn along a side.
 const ALONG_RAD: f64 = 0.26;
 /// Advantage in score by which a piece as drawn beats the piece set straight by its grain. A piece cut on the bias has
 /// a slanted grain and is drawn upright.
 const BIAS: f64 = 0.03;
 
-/// Turns a piece upright by its role, its outline and its grain.
 pub(super) fn set_upright(piece: &mut StylePiece) {
     let fit_as_drawn = propose::pose(piece).map(|pose| (pose.quarter_turns, pose.score));
     let off_rad = off_axis_rad(piece);
@@ -35,7 +34,7 @@ pub(super) fn set_upright(piece: &mut StylePiece) {
     }
 }
 
-/// Angle of the grain from the nearest axis, radians, at most 45 degrees in magnitude.
+/// At most 45 degrees in magnitude.
 fn off_axis_rad(piece: &StylePiece) -> f64 {
     let angle = piece.grain.y.atan2(piece.grain.x);
     angle - (angle / FRAC_PI_2).round() * FRAC_PI_2

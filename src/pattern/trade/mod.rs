@@ -7,7 +7,6 @@ use std::fmt;
 
 pub use self::names::{Named, read, read_words, word_of, words};
 
-/// Kind of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Class {
@@ -15,21 +14,16 @@ pub enum Class {
     Body,
     /// Side panel of a front or back, between the princess seam and the side, or between front and back.
     SidePanel,
-    /// Front or back of a leg.
     Leg,
-    /// Sleeve, or front or back of one.
     Sleeve,
-    /// Front or back of a skirt.
     Skirt,
-    /// Yoke: separately cut part of a front or back over the shoulder, or of a leg or skirt below the waist.
+    /// Separately cut part of a front or back over the shoulder, or of a leg or skirt below the waist.
     Yoke,
-    /// Band round the waist of a skirt or trousers.
     Waistband,
-    /// Band at the end of a sleeve.
     Cuff,
     /// Collar or stand that is sewn to the neckline.
     Collar,
-    /// Anything else, in no proposed seam.
+    /// In no proposed seam.
     Other,
 }
 
@@ -50,13 +44,10 @@ impl Class {
     }
 }
 
-/// Front or back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Face {
-    /// Front of the wearer.
     Front,
-    /// Back of the wearer.
     Back,
 }
 
@@ -64,14 +55,11 @@ pub enum Face {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Hand {
-    /// The wearer's right.
     Right,
-    /// The wearer's left.
     Left,
 }
 
 impl Hand {
-    /// Both hands, the right first.
     pub const BOTH: [Self; 2] = [Self::Right, Self::Left];
 
     pub(crate) fn other(self) -> Self {
@@ -96,7 +84,6 @@ impl fmt::Display for Hand {
 }
 
 impl Face {
-    /// Both faces, the front first.
     pub const BOTH: [Self; 2] = [Self::Front, Self::Back];
 
     pub(crate) fn other(self) -> Self {
@@ -123,14 +110,13 @@ impl fmt::Display for Face {
 /// Part of a kind of piece that names tell apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PartName {
-    /// Under sleeve: the piece below the arm of a sleeve in two.
+    /// Piece below the arm of a sleeve in two.
     Under,
-    /// Gore of a skirt: one of several equal parts.
+    /// One of several equal parts of a skirt.
     Gore,
     /// Collar, hood or neckband: goes with a trunk.
     Neck,
-    /// Side of a garment: between front and back.
+    /// Between front and back.
     Side,
-    /// Any panel of a garment.
     Panel,
 }

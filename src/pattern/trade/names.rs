@@ -9,22 +9,17 @@ use std::sync::LazyLock;
 use super::words::{CLASSES, FACES, HANDS, PARTS, PLAIN};
 use super::{Class, Face, Hand, PartName};
 
-/// Statement of a name about a piece. `None` for what the name does not say.
+/// Statement of a name about a piece. `None` for what it does not say.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Named {
-    /// Kind of piece.
     pub class: Option<Class>,
-    /// Front or back.
     pub face: Option<Face>,
-    /// Side of the wearer.
     pub hand: Option<Hand>,
-    /// Part of a kind.
     pub part: Option<PartName>,
 }
 
 impl Named {
     /// Combines two statements. Of two kinds, faces, hands or parts, the one that is listed first counts.
-    #[must_use]
     pub fn and(self, other: Self) -> Self {
         fn first<T: Copy + PartialEq>(a: Option<T>, b: Option<T>, order: impl Iterator<Item = T>) -> Option<T> {
             order.into_iter().find(|&listed| a == Some(listed) || b == Some(listed)).or(a).or(b)
@@ -37,8 +32,7 @@ impl Named {
         }
     }
 
-    /// True if the statement gives neither kind, nor front or back, nor side.
-    #[must_use]
+    /// True if neither kind, nor front or back, nor side is given.
     pub fn is_nameless(self) -> bool {
         (self.class, self.face, self.hand) == (None, None, None)
     }
@@ -54,12 +48,9 @@ const SIGNS: char = '\u{2e80}';
 const MARKED: std::ops::Range<char> = '\u{900}'..'\u{e00}';
 /// Least number of letters of an alphabetic word inside a compound.
 const LEAST_IN_COMPOUND: usize = 3;
-/// Greatest number of letters of the ending of a stem.
 const LONGEST_ENDING: usize = 3;
 
-/// Splits a name into lower-case words: at other characters than letters, before capitals, and between alphabets and
-/// signs.
-#[must_use]
+/// Splits at other characters than letters, before capitals, and between alphabets and signs; in lower case.
 pub fn words(name: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     let mut before: Option<char> = None;
@@ -82,15 +73,12 @@ pub fn words(name: &str) -> Vec<String> {
     words
 }
 
-/// Kind, face and hand of a piece by its name.
-#[must_use]
 pub fn read(name: &str) -> Named {
     let words = words(name);
     read_words(&words.iter().map(String::as_str).collect::<Vec<_>>(), false)
 }
 
-/// Combined statement of some words. The initials `f` and `b` mean front and back if the kind of piece is known.
-#[must_use]
+/// Initials `f` and `b` mean front and back if the kind of piece is known.
 pub fn read_words(words: &[&str], is_kind_known: bool) -> Named {
     let words = || words.iter().take_while(|word| !DETAILS.contains(word));
     // Terms that are written as two words: `neck band`, `waist band`.
@@ -109,8 +97,7 @@ pub fn read_words(words: &[&str], is_kind_known: bool) -> Named {
     Named { face, ..said }
 }
 
-/// Statement of a word that is a garment term or a compound of terms. `None` for any other word.
-#[must_use]
+/// Takes a garment term or a compound of terms. `None` for any other word.
 pub fn word_of(word: &str) -> Option<Named> {
     let ends: Vec<usize> = word.char_indices().map(|(at, _)| at).chain([word.len()]).collect();
     // For each beginning of the word, the fewest terms that make it up, with their statement. `None` if no terms do.
@@ -134,7 +121,7 @@ pub fn word_of(word: &str) -> Option<Named> {
     made[ends.len() - 1].map(|(_, named)| named)
 }
 
-/// Statement of a term. Short terms do not count inside a compound, and a stem takes its ending at the end of one.
+/// Short terms do not count inside a compound, and a stem takes its ending at the end of one.
 fn listed(word: &str, is_last: bool, is_whole: bool) -> Option<Named> {
     let is_sign = word.chars().all(|c| c >= SIGNS);
     let letters = word.chars().count();
@@ -147,9 +134,7 @@ fn listed(word: &str, is_last: bool, is_whole: bool) -> Option<Named> {
     whole.map(|named| named.and(stem.unwrap_or_default())).or(stem)
 }
 
-/// Statement of every word.
 static WORDS: LazyLock<BTreeMap<&str, Named>> = LazyLock::new(|| lexicon(false));
-/// Statement of every stem.
 static STEMS: LazyLock<BTreeMap<&str, Named>> = LazyLock::new(|| lexicon(true));
 
 fn lexicon(of_stems: bool) -> BTreeMap<&'static str, Named> {

@@ -6,8 +6,8 @@
 
 use super::{Class, Face, Hand, PartName};
 
-/// Words for kinds of pieces. The first kind that is found counts, so small parts precede the pieces that they are sewn
-/// to: `front pocket bag` is a pocket, `sleeve cuff` a cuff.
+/// First kind that is found counts, so small parts precede the pieces that they are sewn to: `front pocket bag` is a
+/// pocket, `sleeve cuff` a cuff.
 #[rustfmt::skip]
 pub const CLASSES: [(Class, &[&str]); 7] = [
     (Class::Other, &[
@@ -55,7 +55,6 @@ pub const CLASSES: [(Class, &[&str]); 7] = [
     ]),
 ];
 
-/// Words for front and back.
 #[rustfmt::skip]
 pub const FACES: [(Face, &[&str]); 2] = [
     (Face::Front, &[
@@ -72,7 +71,6 @@ pub const FACES: [(Face, &[&str]); 2] = [
     ]),
 ];
 
-/// Words for left and right.
 #[rustfmt::skip]
 pub const HANDS: [(Hand, &[&str]); 2] = [
     (Hand::Right, &[
@@ -85,7 +83,6 @@ pub const HANDS: [(Hand, &[&str]); 2] = [
     ]),
 ];
 
-/// Words that distinguish parts of one kind.
 #[rustfmt::skip]
 pub const PARTS: [(PartName, &[&str]); 5] = [
     (PartName::Under, &["under", "lower", "unter", "dessous", "inferior", "onder", "spodni", "нижн-"]),

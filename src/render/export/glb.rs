@@ -5,16 +5,12 @@ use serde_json::{Value, json};
 use super::Part;
 use geom::V3;
 
-/// Component type of the standard for unsigned 32-bit integers.
+/// Component types and buffer targets of the standard.
 const UNSIGNED_INT: u32 = 5125;
-/// Component type for 32-bit floating-point numbers.
 const FLOAT: u32 = 5126;
-/// Buffer target for vertex data.
 const ARRAY_BUFFER: u32 = 34962;
-/// Buffer target for indices.
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
-/// Binary chunk under construction, with its views and accessors.
 #[derive(Default)]
 struct Buffer {
     bytes: Vec<u8>,
@@ -38,7 +34,6 @@ impl Buffer {
         self.add(bytes, ARRAY_BUFFER, accessor)
     }
 
-    /// Adds vertex indices, and returns the index of their accessor.
     fn indices(&mut self, triangles: &[[usize; 3]]) -> usize {
         let bytes = triangles.iter().flatten().flat_map(|v| (*v as u32).to_le_bytes()).collect();
         let accessor = json!({ "componentType": UNSIGNED_INT, "count": 3 * triangles.len(), "type": "SCALAR" });
@@ -57,7 +52,6 @@ impl Buffer {
     }
 }
 
-/// Encodes the parts as one file.
 pub(super) fn write(parts: &[Part<'_>]) -> Vec<u8> {
     let mut buffer = Buffer::default();
     let meshes: Vec<Value> = parts.iter().map(|part| mesh(part, &mut buffer)).collect();
@@ -104,8 +98,7 @@ fn mesh(part: &Part<'_>, buffer: &mut Buffer) -> Value {
     mesh
 }
 
-/// Turns a vector to the axes of glTF: `z` (up) becomes `y`, and `y` (front) becomes `z`. `x` changes its sign, which
-/// keeps the orientation.
+/// Turns a vector to glTF: `z` (up) becomes `y`, `y` (front) `z`, and `x` changes its sign, to keep the orientation.
 fn turned(v: &V3) -> [f32; 3] {
     [-v.x as f32, v.z as f32, v.y as f32]
 }

@@ -10,14 +10,12 @@ use geom::{TriMesh, V2};
 
 use super::Rgb;
 
-/// A mesh with data at its vertices.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part<'a> {
     /// Name of the object (`body`, `garment`).
     pub name: &'a str,
     /// Surface of the part, lengths in metres.
     pub mesh: &'a TriMesh,
-    /// Colour of each vertex.
     pub colours: Vec<Rgb>,
     /// Position of each vertex in the flat pattern piece, m, written as texture coordinates.
     pub places: Option<&'a [V2]>,
@@ -25,7 +23,6 @@ pub struct Part<'a> {
     pub values: Option<(&'a str, &'a [f64])>,
 }
 
-/// Format of a mesh file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MeshFormat {
     /// Binary glTF 2.0 [Khronos 2021]: every part, with colours, texture coordinates and values (`_VALUE`).
@@ -40,8 +37,6 @@ pub enum MeshFormat {
 }
 
 impl MeshFormat {
-    /// Encodes a mesh file.
-    #[must_use]
     pub fn write(self, parts: &[Part<'_>]) -> Vec<u8> {
         match self {
             Self::Glb => glb::write(parts),

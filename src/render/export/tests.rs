@@ -6,7 +6,6 @@ fn mesh() -> TriMesh {
     TriMesh { positions, triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]] }
 }
 
-/// A body and a garment with a map, written.
 fn written(format: MeshFormat) -> Vec<u8> {
     let mesh = mesh();
     let places = [V2::zeros(), V2::x(), V2::y(), V2::new(1.0, 1.0)];

@@ -10,14 +10,12 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use render::Rgb;
 use std::sync::OnceLock;
 
-/// Width of every chart.
 pub(super) const WIDTH: i32 = 1600;
 /// Type size of labels.
 pub(super) const TYPE: i32 = 27;
 /// Height of one row of a chart by rows.
 pub(super) const ROW: i32 = 58;
 
-/// Alignment of text at its point.
 #[derive(Clone, Copy)]
 pub(super) enum Align {
     Left,
@@ -25,7 +23,6 @@ pub(super) enum Align {
     Right,
 }
 
-/// A canvas that draws into a string.
 pub(super) struct Canvas<'a> {
     area: DrawingArea<SVGBackend<'a>, Shift>,
 }
@@ -34,7 +31,6 @@ fn colour(rgb: Rgb) -> RGBColor {
     RGBColor(rgb.0, rgb.1, rgb.2)
 }
 
-/// Draws an SVG of a given height.
 pub(super) fn draw(
     height: i32,
     paint: impl FnOnce(&Canvas<'_>) -> Result<(), ReportError>,
@@ -84,23 +80,19 @@ impl Canvas<'_> {
         self.area.draw(&Text::new(text.to_owned(), at, style)).map_err(refused)
     }
 
-    /// Width of a text.
     pub fn text_width(&self, text: &str) -> i32 {
         let style = ("sans-serif", f64::from(TYPE)).into_text_style(&self.area);
         self.area.estimate_text_size(text, &style).map_or(TYPE * text.chars().count() as i32, |(width, _)| width as i32)
     }
 
-    /// Draws a filled rectangle between two corners.
     pub fn bar(&self, from: (i32, i32), to: (i32, i32), fill: Rgb) -> Result<(), ReportError> {
         self.area.draw(&Rectangle::new([from, to], colour(fill).filled())).map_err(refused)
     }
 
-    /// Draws a filled polygon without an outline.
     pub fn area(&self, corners: Vec<(i32, i32)>, fill: Rgb) -> Result<(), ReportError> {
         self.area.draw(&Polygon::new(corners, colour(fill).filled())).map_err(refused)
     }
 
-    /// Draws a line through points.
     pub fn line(&self, points: Vec<(i32, i32)>, ink: Rgb, width: u32) -> Result<(), ReportError> {
         self.area.draw(&PathElement::new(points, colour(ink).stroke_width(width))).map_err(refused)
     }
@@ -129,7 +121,7 @@ impl Canvas<'_> {
         self.area.draw(&Circle::new(at, 12, colour(fill).filled())).map_err(refused)
     }
 
-    /// Draws a key above a chart: marks and names, broken into lines. Returns its height.
+    /// Draws the marks and names of a chart, broken into lines. Returns the height.
     pub fn key(&self, names: &[String], left: i32, top: i32) -> Result<i32, ReportError> {
         let (mut x, mut y) = (left, top + TYPE);
         for (series, name) in names.iter().enumerate() {
@@ -145,7 +137,7 @@ impl Canvas<'_> {
     }
 }
 
-/// Horizontal axis: maps values to coordinates.
+/// Maps values to coordinates.
 #[derive(Clone, Copy)]
 pub(super) struct Axis {
     pub low: f64,
@@ -173,7 +165,6 @@ impl Axis {
         ((first..=last).map(|k| k as f64 * step).collect(), decimals)
     }
 
-    /// Draws grid lines, with their values below.
     pub fn grid(&self, canvas: &Canvas<'_>, top: i32, bottom: i32) -> Result<(), ReportError> {
         let (ticks, decimals) = self.ticks();
         for tick in ticks {

@@ -14,13 +14,11 @@ const SHARES: i32 = 150;
 /// Distribution of the ease of a size at a level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Probable {
-    /// Name of the size, such as `M`.
     pub size: String,
-    /// Name of the level in words.
     pub level: String,
-    /// Lower and upper end of the ease that is meant, m; `None` without a target.
+    /// Lower and upper end; `None` without a target.
     pub target_m: Option<[f64; 2]>,
-    /// Lower end, median and upper end of the 80 % interval of the ease, m.
+    /// Lower end, median and upper end of the 80 % interval.
     pub ease_m: [f64; 3],
     /// Probability that the ease is within its target; `None` without a target.
     pub share: Option<f64>,
@@ -28,9 +26,6 @@ pub struct Probable {
 
 /// Draws a group of rows for each level, with a row for each size: a bar for the target, a line for the 80 % interval,
 /// a mark at the median, and the probability of the target.
-///
-/// # Errors
-/// [`ReportError::Chart`] where plotters refuses to draw.
 pub fn chance_chart(title: &str, rows: &[Probable]) -> Result<Chart, ReportError> {
     let (sizes, levels) = (names(rows, |row| &row.size), names(rows, |row| &row.level));
     let height = ROW.max((TYPE + 10) * sizes.len() as i32 + 14);
@@ -85,7 +80,7 @@ fn words(row: &Probable) -> String {
     format!("{} {} {low} to {high} mm", row.size, row.level)
 }
 
-/// Distinct names, in the order of their first appearance.
+/// Distinct, in the order of their first appearance.
 fn names(rows: &[Probable], name: impl Fn(&Probable) -> &String) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for row in rows {

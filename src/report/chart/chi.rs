@@ -15,7 +15,6 @@ fn axis(values: impl Iterator<Item = f64>) -> Axis {
     Axis { low: low - margin, high: high + margin, left: LEFT, right: WIDTH - 50 }
 }
 
-/// Draws the frame of both charts: rows, grid, names and the line at 1.
 fn frame(canvas: &Canvas<'_>, axis: &Axis, rows: &[&Measured], top: i32, row: i32) -> Result<(), ReportError> {
     let bottom = top + row * rows.len() as i32;
     for (k, m) in (0..).zip(rows) {
@@ -31,12 +30,8 @@ fn frame(canvas: &Canvas<'_>, axis: &Axis, rows: &[&Measured], top: i32, row: i3
     canvas.text(((LEFT + WIDTH) / 2, bottom + 2 * TYPE + 18), caption, theme::MUTED, Align::Middle, false)
 }
 
-/// Draws chi of every run by measurement, the line at 1, and published values as hollow marks.
-///
-/// Failed runs have no marks. A run's place in `runs` determines its mark; `labels` names the runs.
-///
-/// # Errors
-/// [`ReportError::Chart`] where plotters refuses to draw.
+/// Published values are hollow marks, failed runs have none. A run's place in `runs` determines its mark; `labels`
+/// names the runs.
 pub fn chi_chart(title: &str, runs: &[&TryOn], labels: &[String]) -> Result<Chart, ReportError> {
     let rows = measurements(runs);
     let published = runs.iter().flat_map(|r| &r.measured).filter_map(|m| m.published_chi);
@@ -67,9 +62,6 @@ pub fn chi_chart(title: &str, runs: &[&TryOn], labels: &[String]) -> Result<Char
 
 /// Draws the mean of chi over the runs for each measurement, as a bar from 1 with whiskers of one sample standard
 /// deviation.
-///
-/// # Errors
-/// [`ReportError::Chart`] where plotters refuses to draw.
 pub fn mean_sd_chart(title: &str, runs: &[&TryOn]) -> Result<Chart, ReportError> {
     let rows = measurements(runs);
     let statistics: Vec<(f64, f64)> = rows

@@ -9,13 +9,11 @@ use fit::{Crossover, Cuts, MARGIN, Pair};
 const LEFT: i32 = 560;
 const UNDER: i32 = 3 * TYPE + 30;
 
-/// A mean difference with a name.
 pub struct Difference {
-    /// Name of the row.
     pub label: String,
     /// Mean over subjects.
     pub mean: f64,
-    /// Confidence interval of the mean, if there is one.
+    /// Confidence interval of the mean.
     pub interval: Option<(f64, f64)>,
 }
 
@@ -26,9 +24,6 @@ fn reach(values: impl Iterator<Item = f64>) -> f64 {
 
 /// Draws a row for each difference: a dot with its interval, the margin of equivalence as a band around 0, and a line
 /// at `whole`. `kind` becomes part of the file name.
-///
-/// # Errors
-/// [`ReportError::Chart`] where plotters refuses to draw.
 pub fn difference_chart(
     title: &str,
     kind: &str,
@@ -77,7 +72,6 @@ fn side(difference: f64) -> render::Rgb {
     theme::simulator(if difference < 0.0 { fit::Simulator::Fem } else { fit::Simulator::Hybrid })
 }
 
-/// A case in the chart of differences against ease.
 struct Dot {
     ease_mm: f64,
     /// EI of FEM-GS less EI of Hybrid-GS.
@@ -87,9 +81,6 @@ struct Dot {
 
 /// Draws the EI difference of every case against its ease, and the regression line. A band shows the interval in which
 /// the line crosses 0, where it is known. `None` without cases.
-///
-/// # Errors
-/// [`ReportError::Chart`] where plotters refuses to draw.
 pub fn crossover_chart(
     title: &str,
     pairs: &[&Pair],

@@ -12,23 +12,20 @@ const TOP: i32 = 70;
 const BAR: i32 = 38;
 const GAP: i32 = ROW - BAR;
 
-/// A summary statistic of the measurements of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Metric {
-    /// E: mean chi.
+    /// Mean chi.
     E,
-    /// SD: sample standard deviation of chi.
+    /// Sample standard deviation of chi.
     Sd,
-    /// EI: mean |chi - 1|.
+    /// Mean |chi - 1|.
     Ei,
 }
 
 impl Metric {
-    /// All statistics, in the order of the thesis.
+    /// Order is that of the thesis.
     pub const ALL: [Self; 3] = [Self::E, Self::Sd, Self::Ei];
 
-    /// Name in tables.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::E => "E",
@@ -37,7 +34,7 @@ impl Metric {
         }
     }
 
-    /// Value of the statistic for a run; `None` without measurements.
+    /// `None` without measurements.
     fn value(self, run: &TryOn) -> Option<f64> {
         let metrics = run.metrics(|_| true)?;
         Some(match self {
@@ -69,12 +66,8 @@ impl Metric {
     }
 }
 
-/// Draws one bar for each run, in the colour of its simulator and with its value.
-///
-/// `labels` names subject and fabric of each run. Runs with the same label are adjacent.
-///
-/// # Errors
-/// [`ReportError::Chart`] where plotters refuses to draw.
+/// Draws one bar for each run, in the colour of its simulator and with its value. `labels` names subject and fabric of
+/// each run; runs with the same label are adjacent.
 pub fn metric_chart(title: &str, metric: Metric, runs: &[&TryOn], labels: &[String]) -> Result<Chart, ReportError> {
     let mut groups: Vec<(&String, Vec<&TryOn>)> = Vec::new();
     for (run, label) in runs.iter().zip(labels) {
@@ -111,7 +104,6 @@ pub fn metric_chart(title: &str, metric: Metric, runs: &[&TryOn], labels: &[Stri
     Ok(Chart::new(&name.to_lowercase(), title, svg, alt))
 }
 
-/// Draws the bar of a run from the base to its value, and the number beyond the bar's end.
 fn bar(canvas: &Canvas<'_>, metric: Metric, axis: &Axis, run: &TryOn, upper: i32) -> Result<(), ReportError> {
     let (base, middle) = (axis.at(metric.base()), upper + BAR / 2);
     let Some(value) = metric.value(run) else {
@@ -124,7 +116,6 @@ fn bar(canvas: &Canvas<'_>, metric: Metric, axis: &Axis, run: &TryOn, upper: i32
     canvas.text((x, middle), &format!("{value:.3}"), theme::INK, align, false)
 }
 
-/// Draws the key to the colours of the simulators.
 fn key(canvas: &Canvas<'_>, runs: &[&TryOn]) -> Result<(), ReportError> {
     let mut x = LEFT;
     for simulator in Simulator::ALL {

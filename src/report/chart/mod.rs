@@ -27,7 +27,6 @@ use render::{RenderError, png, rasterise_svg};
 /// Longest side of a chart that is too large and therefore reduced for a PNG file, pixels.
 const PNG_SIDE: f32 = 8000.0;
 
-/// A drawn chart.
 #[derive(Clone, Debug)]
 pub struct Chart {
     name: String,
@@ -46,29 +45,20 @@ impl Chart {
         self.name = names.part(&self.name);
     }
 
-    /// Path of the chart as a file with an extension, relative to the report's page.
-    #[must_use]
+    /// Path of the file, relative to the report's page.
     pub fn address(&self, extension: &str) -> String {
         format!("charts/{}.{extension}", self.name)
     }
 
-    /// Returns the chart as an SVG file.
-    #[must_use]
     pub fn svg(&self) -> &str {
         &self.svg
     }
 
-    /// Alternative text of the chart.
-    #[must_use]
     pub fn alt(&self) -> &str {
         &self.alt
     }
 
-    /// Encodes the chart as a PNG file on white, with the embedded font. Reduces a chart that is too large for a
-    /// picture.
-    ///
-    /// # Errors
-    /// [`ReportError::Picture`] where the drawing cannot be rasterised.
+    /// Encodes on white, with the embedded font. Reduces a chart that is too large for a picture.
     pub fn png(&self) -> Result<Vec<u8>, ReportError> {
         let drawing = match rasterise_svg(&self.svg, 1.0) {
             // Many measurements of many subjects make a tall chart.
@@ -95,7 +85,7 @@ impl Chart {
     }
 }
 
-/// Shortens a text to at most `most` characters.
+/// `most` counts characters.
 fn shorten(text: &str, most: usize) -> String {
     if text.chars().count() <= most {
         return text.to_owned();
@@ -103,7 +93,6 @@ fn shorten(text: &str, most: usize) -> String {
     text.chars().take(most - 1).chain(['…']).collect()
 }
 
-/// Label of a row for a measurement.
 fn row_label(no: u32, name: &str) -> String {
     format!("#{no} {}", shorten(name, 30))
 }

@@ -14,9 +14,6 @@ const LEAST: f64 = 1e-4;
 
 /// Draws a row for each measurement of a garment. For each simulator it has a dot at the mean over the cases of the
 /// range of chi, and a line to the greatest range.
-///
-/// # Errors
-/// [`ReportError::Chart`] where plotters refuses to draw.
 pub(crate) fn repeat_chart(title: &str, cases: &[&Repeats]) -> Result<Chart, ReportError> {
     let mut rows: Vec<(u32, &str)> =
         cases.iter().flat_map(|case| &case.spreads).map(|spread| (spread.no, spread.name.as_str())).collect();

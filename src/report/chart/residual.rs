@@ -9,9 +9,6 @@ use super::canvas::{Align, Axis, TYPE, WIDTH, draw};
 const POINTS: usize = 300;
 
 /// Draws the residual on a logarithmic scale against the iteration, one line for each run, named at its end.
-///
-/// # Errors
-/// [`ReportError::Chart`] where plotters refuses to draw.
 pub fn residual_chart(title: &str, runs: &[&TryOn], labels: &[String]) -> Result<Chart, ReportError> {
     let curves: Vec<Vec<(f64, f64)>> = runs.iter().map(|r| thin(&r.residuals)).collect();
     let points = || curves.iter().flatten();

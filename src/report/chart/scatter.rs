@@ -14,7 +14,6 @@ const BOTTOM: i32 = 620;
 /// Greatest number of runs whose dots have names beside them.
 const NAMED: usize = 18;
 
-/// A run as a dot.
 struct Dot {
     x: f64,
     ei: f64,
@@ -24,9 +23,6 @@ struct Dot {
 
 /// Draws EI against the ease that decides the fit, with lines at the limits of the fit classes; `None` if no run has
 /// both values.
-///
-/// # Errors
-/// [`ReportError::Chart`] where plotters refuses to draw.
 pub fn ease_chart(runs: &[TryOn], cuts: &Cuts) -> Result<Option<Chart>, ReportError> {
     let lines = [(cuts.tight_below_m * 1e3, "tight | just"), (cuts.loose_above_m * 1e3, "just | loose")];
     let dots = dots(runs, |run| run.ease.as_ref().map(|ease| ease.ease_m() * 1e3));
@@ -35,9 +31,6 @@ pub fn ease_chart(runs: &[TryOn], cuts: &Cuts) -> Result<Option<Chart>, ReportEr
 }
 
 /// Draws EI against wall-clock time; `None` if no run has both values.
-///
-/// # Errors
-/// [`ReportError::Chart`] where plotters refuses to draw.
 pub fn time_chart(runs: &[TryOn]) -> Result<Option<Chart>, ReportError> {
     let dots = dots(runs, |run| (run.wall_s > 0.0).then_some(run.wall_s));
     scatter("EI against time", "time", "wall-clock time of the run, s", &dots, &[0.0], &[])
@@ -107,7 +100,6 @@ fn names(canvas: &Canvas<'_>, dots: &[Dot], across: &Axis, up: &Axis) -> Result<
     Ok(())
 }
 
-/// Draws the key to the colours of the simulators.
 fn key(canvas: &Canvas<'_>, dots: &[Dot]) -> Result<(), ReportError> {
     let mut x = LEFT;
     for simulator in [Simulator::Fem, Simulator::Hybrid].into_iter().filter(|s| dots.iter().any(|d| d.simulator == *s))
@@ -120,7 +112,6 @@ fn key(canvas: &Canvas<'_>, dots: &[Dot]) -> Result<(), ReportError> {
     Ok(())
 }
 
-/// Draws grid and values of the vertical axis, and the caption.
 fn frame(canvas: &Canvas<'_>, up: &Axis, across: &Axis, caption: &str) -> Result<(), ReportError> {
     let (ticks, decimals) = up.ticks();
     for tick in ticks {

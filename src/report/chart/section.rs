@@ -17,26 +17,18 @@ const WRITTEN: usize = 8;
 const WRITTEN_OFF: f64 = 34.0;
 /// Left and right side of the square in which the section is drawn.
 const SQUARE: (i32, i32) = (40, 700);
-/// Left end of the curves.
 const CURVES_LEFT: i32 = 880;
-/// Left end of the key.
 const KEY_LEFT: i32 = 790;
 
-/// A size that is worn, cut at a level.
 #[derive(Clone, Debug)]
 pub struct Worn<'a> {
-    /// Name of the size in the key.
     pub label: String,
     /// True if the gaps of this size are written beside the section, as those of the recommended size are.
     pub is_written: bool,
-    /// Outlines of body and cloth.
     pub section: &'a Section,
 }
 
 /// Draws sizes of one garment on one body, cut at one level.
-///
-/// # Errors
-/// [`ReportError::Chart`] where plotters refuses to draw.
 pub fn section_chart(title: &str, sizes: &[Worn<'_>]) -> Result<Chart, ReportError> {
     let (top, key) = (70, sizes.len() as i32 * (TYPE + 14));
     let bottom = top + SQUARE.1 - SQUARE.0;

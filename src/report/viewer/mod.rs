@@ -11,17 +11,15 @@ use geom::units::mm;
 use render::Scale;
 use serde::Serialize;
 
-/// Script of the viewer. It makes no network requests.
+/// Makes no network requests.
 pub(super) const SCRIPT: &str = include_str!("viewer.js");
-/// Style sheet of the viewer.
 pub(super) const STYLE: &str = include_str!("viewer.css");
-/// Element of the viewer in the page, hidden until the script can draw.
+/// Hidden until the script can draw.
 pub(super) const FRAGMENT: &str = include_str!("viewer.html");
 
 /// Number of colours in a scale.
 const COLOURS: usize = 13;
 
-/// All drapes of a page, with their bodies, maps and measurements.
 #[derive(Clone, Debug, Serialize)]
 pub struct Drapes {
     /// Unit vector towards the front of the bodies.
@@ -84,14 +82,12 @@ struct PackedScale {
     ramp: Vec<String>,
 }
 
-/// A level of a body.
 #[derive(Clone, Debug, Serialize)]
 struct LevelMark {
     name: String,
     height_mm: f64,
 }
 
-/// A drape of the sewn cloth, to be added to [`Drapes`].
 pub struct Drape<'a> {
     /// Garment, size, subject and simulator.
     pub names: [&'a str; 4],
@@ -101,9 +97,9 @@ pub struct Drape<'a> {
     pub positions: &'a [V3],
     /// Vertices of each triangle, counter-clockwise seen from outside.
     pub triangles: &'a [[usize; 3]],
-    /// Maps: name, scale, and values of the vertices.
+    /// Name, scale, and values of the vertices.
     pub maps: Vec<(&'static str, Scale, Vec<f64>)>,
-    /// Measurements: name, text, and points along the line, m.
+    /// Name, text, and points along the line, m.
     pub lines: Vec<(String, String, Vec<V3>)>,
 }
 
@@ -122,20 +118,15 @@ impl Default for Drapes {
 }
 
 impl Drapes {
-    /// True if there is no drape.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.drapes.is_empty()
     }
 
-    /// True if the body of a subject was added.
-    #[must_use]
     pub fn has_body(&self, subject: &str) -> bool {
         self.bodies.iter().any(|body| body.subject == subject)
     }
 
-    /// Adds a body with its levels, given by name and height above the floor, m. Does nothing if the mesh is too large
-    /// for a page.
+    /// Levels are given by name and height above the floor, m. Does nothing if the mesh is too large for a page.
     pub fn add_body(&mut self, subject: &str, positions: &[V3], triangles: &[[usize; 3]], levels: Vec<(String, f64)>) {
         let Some((mesh, topology)) = self.mesh(triangles) else { return };
         let (origin_mm, positions) = topology.places(positions);
@@ -144,7 +135,7 @@ impl Drapes {
         self.levels.insert(subject.to_owned(), levels.into_iter().map(mark).collect());
     }
 
-    /// Adds a drape. Does nothing if its mesh is too large for a page.
+    /// Does nothing if the mesh is too large for a page.
     pub fn add(&mut self, drape: &Drape<'_>) {
         let Some((mesh, topology)) = self.mesh(drape.triangles) else { return };
         let (origin_mm, positions) = topology.places(drape.positions);
@@ -191,9 +182,6 @@ impl Drapes {
     }
 
     /// Returns JSON that is safe within a script element of a page.
-    ///
-    /// # Errors
-    /// When a number cannot be written.
     pub(super) fn json(&self) -> Result<String, serde_json::Error> {
         Ok(serde_json::to_string(self)?.replace('<', "\\u003c"))
     }

@@ -12,22 +12,21 @@ use flate2::write::DeflateEncoder;
 use geom::V3;
 use geom::units::mm;
 
-/// Quantisation step of positions, mm.
+/// Quantisation step of positions.
 pub const STEP_MM: f64 = 0.25;
 
 /// Triangles in an order in which each is adjacent to an earlier one where possible. Vertices are numbered by their
 /// first use.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Topology {
-    /// Triangles in this order, with the new numbers of their vertices.
+    /// Vertices have their new numbers.
     triangles: Vec<[usize; 3]>,
     /// Index of each vertex in the original mesh, by its new number.
     pub vertices: Vec<usize>,
 }
 
 impl Topology {
-    /// Orders triangles; `None` for more vertices than 16 bits can number.
-    #[must_use]
+    /// `None` for more vertices than 16 bits can number.
     pub fn of(triangles: &[[usize; 3]]) -> Option<Self> {
         let mut beside: BTreeMap<[usize; 2], Vec<usize>> = BTreeMap::new();
         for (t, triangle) in triangles.iter().enumerate() {
@@ -54,13 +53,11 @@ impl Topology {
     }
 
     /// Number of triangles.
-    #[must_use]
     pub fn count(&self) -> usize {
         self.triangles.len()
     }
 
-    /// Packs the triangles. A vertex is stored as the next unused number minus its own number.
-    #[must_use]
+    /// Stores each vertex as the next unused number minus its own number.
     pub fn packed(&self) -> String {
         let mut next = 0;
         let mut codes = Vec::new();
@@ -73,7 +70,6 @@ impl Topology {
 
     /// Packs the positions of the vertices. Returns the lowest corner of their bounding box, mm, and the packed
     /// positions.
-    #[must_use]
     pub fn places(&self, positions: &[V3]) -> ([f64; 3], String) {
         let own: Vec<V3> = self.vertices.iter().map(|v| positions[*v]).collect();
         let grid = Grid::of(&own);
@@ -90,14 +86,12 @@ impl Topology {
         (grid.origin_mm, deflated(&codes.iter().flat_map(|axis| planes(axis)).collect::<Vec<u8>>()))
     }
 
-    /// Packs values of the vertices into one byte each: 0 is `low`, 255 is `high`.
-    #[must_use]
+    /// One byte each: 0 is `low`, 255 is `high`.
     pub fn values(&self, values: &[f64], low: f64, high: f64) -> String {
         let byte = |v: &usize| (255.0 * (values[*v] - low) / (high - low)).round().clamp(0.0, 255.0) as u8;
         deflated(&self.vertices.iter().map(byte).collect::<Vec<u8>>())
     }
 
-    /// Predictor of the position of each vertex.
     fn predictions(&self) -> Vec<Prediction> {
         let mut found = Vec::with_capacity(self.vertices.len());
         let mut opposite: BTreeMap<[usize; 2], usize> = BTreeMap::new();
@@ -126,7 +120,6 @@ impl Topology {
 /// Predictor of the position of a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Prediction {
-    /// The origin, for the first vertex.
     Origin,
     /// The vertex numbered before.
     Before,
@@ -135,7 +128,6 @@ enum Prediction {
 }
 
 /// Packs points along a line as steps from each to the next, on the grid of some vertices.
-#[must_use]
 pub fn line(points: &[V3], origin_mm: [f64; 3]) -> String {
     let grid = Grid { origin_mm };
     let mut before = [0; 3];
@@ -148,7 +140,6 @@ pub fn line(points: &[V3], origin_mm: [f64; 3]) -> String {
     deflated(&codes.iter().flat_map(|axis| planes(axis)).collect::<Vec<u8>>())
 }
 
-/// Quantisation grid whose origin is a corner.
 struct Grid {
     origin_mm: [f64; 3],
 }
@@ -165,7 +156,7 @@ impl Grid {
     }
 }
 
-/// Sides of a triangle, each with the smaller number first.
+/// Smaller number first.
 fn sides(triangle: &[usize; 3]) -> [[usize; 2]; 3] {
     [0, 1, 2].map(|k| {
         let [a, b] = [triangle[k], triangle[(k + 1) % 3]];
@@ -214,7 +205,6 @@ mod tests {
         i32::from(code >> 1) ^ -i32::from(code & 1)
     }
 
-    /// A bent sheet of quads.
     fn sheet() -> (Vec<V3>, Vec<[usize; 3]>) {
         let side = 40;
         let place = |k: usize| {

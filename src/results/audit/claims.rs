@@ -13,7 +13,6 @@ const EQUIVALENT: f64 = 0.01;
 /// Result from the tables that contradicts a statement; `None` where the statement holds.
 type Refuted = Option<String>;
 
-/// A statement of the text about the tables.
 struct Claim {
     section: &'static str,
     says: &'static str,
@@ -27,7 +26,7 @@ const EI: Figure = |tables, of, simulator, subject| tables.ei(of, simulator, sub
 const BIAS: Figure = |tables, of, simulator, subject| (mean(&tables.chis(of, simulator, subject)) - 1.0).abs();
 const SD: Figure = |tables, of, simulator, subject| variance(&tables.chis(of, simulator, subject), 1.0).sqrt();
 
-/// The statements about numbers, in order of the text.
+/// Statements about numbers, in order of the text.
 const CLAIMS: [Claim; 15] = [
     Claim { section: "4.4.2.2", says: "bending by 120 or 180 degrees is more accurate than flat", refute: bending },
     Claim {
@@ -94,7 +93,6 @@ const CLAIMS: [Claim; 15] = [
     },
 ];
 
-/// Checks every statement against the tables.
 pub(super) fn check(tables: &Tables) -> Audit {
     let refuted = |claim: &Claim| {
         Some(Finding {
@@ -112,14 +110,12 @@ fn sized((garment, size): (&str, &str)) -> Sized {
     Sized { garment: garment.into(), size: size.into() }
 }
 
-/// Range of chi of a garment; `None` within the stated limits.
 fn range(tables: &Tables, of: (&str, &str), simulator: Simulator, low: f64, high: f64) -> Refuted {
     let chis: Vec<f64> = (0..6).flat_map(|subject| tables.chis(&sized(of), simulator, subject)).collect();
     let (least, most) = chis.iter().fold((f64::MAX, f64::MIN), |(l, m), &chi| (l.min(chi), m.max(chi)));
     (least < low - ROUNDING || most > high + ROUNDING).then(|| format!("chi from {} to {}", three(least), three(most)))
 }
 
-/// Subjects on whom a statistic is not lower for the simulator that the text calls better.
 fn favours(tables: &Tables, of: (&str, &str), simulator: Simulator, subjects: &[usize], figure: Figure) -> Refuted {
     let of = sized(of);
     let other = if simulator == Fem { Hybrid } else { Fem };

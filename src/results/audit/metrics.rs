@@ -11,7 +11,6 @@ const MOST_MEASUREMENTS: usize = 16;
 /// Error of a metric that comes from the rounding of the printed lengths.
 const BLUR: f64 = 1e-4;
 
-/// Checks every printed E, SD, EI and their averages.
 pub(super) fn check(tables: &Tables) -> Audit {
     let instead = stand_in(tables);
     let mut findings: Vec<Finding> = tables.metrics.iter().flat_map(|metric| row(tables, metric, instead)).collect();
@@ -97,7 +96,6 @@ fn errors(chis: &[f64]) -> Vec<f64> {
     chis.iter().map(|chi| (chi - 1.0).abs()).collect()
 }
 
-/// Explanation of a wrong metric.
 fn explain(metric: &Metric, chis: &[f64], printed: f64, instead: Option<usize>) -> String {
     let errors = errors(chis);
     if metric.metric == "EI" {
@@ -154,7 +152,7 @@ fn missing(tables: &Tables) -> Vec<Finding> {
     findings
 }
 
-/// Checks mean and SD of the subjects (Tables 6-3, 6-4), and the sex in the captions.
+/// Mean and SD of the subjects (Tables 6-3, 6-4), and the sex in the captions.
 pub(super) fn subjects(tables: &Tables) -> Audit {
     let mut findings: Vec<Finding> = tables.summaries.iter().flat_map(|summary| statistics(tables, summary)).collect();
     let miscaptioned = tables.summaries.iter().filter(|s| s.captioned != s.sex && s.statistic == "mean");

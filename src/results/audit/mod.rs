@@ -17,24 +17,19 @@ mod tests;
 
 use store::{Result, Store, Table, Value};
 
-/// A contradiction that an audit found.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// Kind of finding (`ratio`, `metric`, `copy`, ...).
+    /// Such as `ratio`, `metric` or `copy`.
     pub kind: &'static str,
     /// Place of the number: table, row and subject; for a study, the job.
     pub place: String,
-    /// Number or statement as printed or stored.
+    /// As printed or stored.
     pub stated: String,
-    /// Number as computed again.
     pub recomputed: String,
-    /// Contradiction in words.
     pub says: String,
 }
 
 impl Finding {
-    /// Returns findings as a table for people or programs.
-    #[must_use]
     pub fn table(findings: &[Self]) -> Table {
         let text = |text: &str| Value::Text(text.to_owned());
         let row = |f: &Self| vec![text(f.kind), text(&f.place), text(&f.stated), text(&f.recomputed), text(&f.says)];
@@ -45,37 +40,26 @@ impl Finding {
     }
 }
 
-/// Result of an audit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Audit {
-    /// Number of numbers that were computed again.
     pub recomputed: usize,
-    /// Contradictions that were found.
     pub findings: Vec<Finding>,
 }
 
-/// Audits the printed tables of the thesis.
-///
-/// # Errors
-/// When the database cannot be read.
 pub fn audit_thesis(store: &Store) -> Result<Audit> {
     Ok(published::audit(&tables::Tables::read(&store.reader)?))
 }
 
 /// Measures the stored meshes of a study's results again, and compares the lengths with the stored ones.
-///
-/// # Errors
-/// When there is no such study or the database cannot be read.
 pub fn audit_study(store: &Store, study: &str) -> Result<Audit> {
     results::audit(store, study)
 }
 
-/// A number with three decimals, as the thesis prints ratios.
+/// Three decimals, as the thesis prints ratios.
 fn three(x: f64) -> String {
     format!("{x:.3}")
 }
 
-/// Numbers with three decimals, separated by blanks.
 fn threes(numbers: impl IntoIterator<Item = f64>) -> String {
     numbers.into_iter().map(three).collect::<Vec<_>>().join(" ")
 }

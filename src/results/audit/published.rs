@@ -3,16 +3,14 @@
 use crate::audit::tables::Tables;
 use crate::audit::{Audit, claims, equations, metrics, ratios, references, structure};
 
-/// One kind of check of the tables.
 type Check = fn(&Tables) -> Audit;
 
-/// All kinds of check, in the order in which their findings are listed.
+/// In the order in which their findings are listed.
 const CHECKS: [Check; 7] =
     [ratios::check, metrics::check, structure::check, metrics::subjects, references::check, claims::check, |_| {
         equations::check()
     }];
 
-/// Recomputes every printed number and statement.
 pub(super) fn audit(tables: &Tables) -> Audit {
     let mut audit = Audit { recomputed: 0, findings: Vec::new() };
     for check in CHECKS {

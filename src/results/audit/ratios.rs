@@ -26,7 +26,6 @@ fn chained(row: &Row, subject: usize) -> Option<f64> {
     Some(row.l3d_mm[subject] / before)
 }
 
-/// True if a printed ratio is that of the lengths printed beside it.
 fn holds(row: &Row, subject: usize) -> bool {
     let ratio = row.ratio(subject);
     prints_as(ratio, row.chi[subject], blur(ratio, row.l2d_mm))

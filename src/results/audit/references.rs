@@ -72,7 +72,6 @@ const DRAPE_RANGES: [(&str, [f64; 2]); 2] = [("t-shirt", [20.0, 40.0]), ("loose 
 /// A row of Table 6-32 whose first word is cut short.
 const CUT_SHORT: (&str, &str) = ("Tim cost", "Time cost");
 
-/// Checks captions, references and words.
 pub(super) fn check(tables: &Tables) -> Audit {
     if tables.rows.is_empty() {
         return Audit { recomputed: 0, findings: Vec::new() };
@@ -84,7 +83,6 @@ pub(super) fn check(tables: &Tables) -> Audit {
     Audit { recomputed: CAPTIONED.len() + SENTENCES.len() + DRAPE_RANGES.len(), findings }
 }
 
-/// Captions without a size, for garments in several sizes.
 fn captions(tables: &Tables) -> Vec<Finding> {
     let mut bare: BTreeMap<&str, Vec<(&str, &str)>> = BTreeMap::new();
     for (table, size) in CAPTIONED {
@@ -131,7 +129,6 @@ fn references(tables: &Tables) -> Vec<Finding> {
     wrong.collect()
 }
 
-/// Numbers of iterations of Hybrid-GS that two sections state differently.
 fn iterations() -> Vec<Finding> {
     let outside = DRAPE_RANGES.iter().filter(|(_, [low, high])| !(*low..=*high).contains(&DRAPE_STEPS));
     let finding = |(garment, [low, high]): &(&str, [f64; 2])| Finding {
@@ -144,7 +141,6 @@ fn iterations() -> Vec<Finding> {
     outside.map(finding).collect()
 }
 
-/// Words that stand in the place of others.
 fn words(tables: &Tables) -> Vec<Finding> {
     let rows: Vec<&Row> = tables.rows.iter().filter(|row| row.name.contains("Circumstance")).collect();
     let finding = |place: String, stated: &str, meant: &str, says: &str| Finding {

@@ -10,14 +10,12 @@ use geom::units::mm;
 use sim::{Drape, quality};
 use store::{ChiRow, JobFilter, JobRow, MetricsRow, Result, StageKind, Status, Store, Value, read, sql};
 
-/// Greatest difference between a stored and a measured length that counts as none, m.
+/// Greatest difference between a stored and a measured length that counts as none.
 const SAME_M: f64 = 1e-9;
-/// Greatest difference between a stored and a recomputed metric that counts as none.
 const SAME: f64 = 1e-9;
-/// Deepest penetration that is no defect, m.
+/// Deepest penetration that is no defect.
 const PENETRATION_M: f64 = 0.5e-3;
 
-/// Audits the current results of a study.
 pub(super) fn audit(store: &Store, study: &str) -> Result<Audit> {
     read::study(store, study)?;
     let jobs = read::jobs(store, &JobFilter { study: Some(study.to_owned()), ..JobFilter::default() })?;
@@ -38,12 +36,10 @@ pub(super) fn audit(store: &Store, study: &str) -> Result<Audit> {
     Ok(audit)
 }
 
-/// Name of the job's cell: garment, size, subject and simulator.
 fn place(job: &JobRow) -> String {
     format!("job {}: {} {} on {}, {}", job.id, job.garment, job.size, job.subject, job.simulator.as_str())
 }
 
-/// Finding for a job without a result, or with one that did not converge.
 fn state(job: &JobRow) -> Option<Finding> {
     let says = match job.status {
         Status::Done => return None,
@@ -62,7 +58,7 @@ fn state(job: &JobRow) -> Option<Finding> {
     })
 }
 
-/// Measures the mesh of a result again. Returns the number of numbers computed.
+/// Measures the mesh of a result again. Returns the count of numbers computed.
 fn remeasure(store: &Store, job: &JobRow, chis: &[ChiRow], findings: &mut Vec<Finding>) -> Result<usize> {
     let stored = read::metrics(store, job.id)?;
     let read = || -> Result<_> {
@@ -110,7 +106,6 @@ fn differs(row: &ChiRow, chi: &Chi) -> bool {
     row.no != chi.no || (row.l3d_m - chi.l3d_m).abs() > SAME_M || (row.l2d_m - chi.l2d_m).abs() > SAME_M
 }
 
-/// Stored metrics that differ from those computed from the measurements.
 fn metrics(job: &JobRow, stored: &MetricsRow, again: &Metrics) -> Vec<Finding> {
     let pairs = [
         ("n", f64::from(stored.n), again.n as f64),

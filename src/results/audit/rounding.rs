@@ -3,7 +3,7 @@
 /// Greatest difference between a number and its print with three decimals: half a unit of the last digit.
 const HALF_DIGIT: f64 = 0.0005 + 1e-6;
 
-/// Half a unit of the last digit of a printed length, mm.
+/// Half a unit of the last digit of a printed length.
 const HALF_DIGIT_MM: f64 = 0.005;
 
 /// True if a printed number is the recomputed one, rounded. `blur` is the error from rounding in its parts.
@@ -16,7 +16,6 @@ pub(super) fn blur(ratio: f64, below_mm: f64) -> f64 {
     HALF_DIGIT_MM * (1.0 + ratio) / below_mm
 }
 
-/// Mean of numbers.
 pub(super) fn mean(numbers: &[f64]) -> f64 {
     numbers.iter().sum::<f64>() / numbers.len() as f64
 }

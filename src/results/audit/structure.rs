@@ -5,14 +5,13 @@ use crate::audit::tables::{Row, SUBJECTS, Sized, Tables};
 use crate::audit::{Audit, Finding};
 use fit::Simulator;
 
-/// Greatest difference between a printed length and the sum of two that counts as none, mm; lengths have 0.01 mm.
+/// Greatest difference between a printed length and the sum of two that counts as none; lengths have 0.01 mm.
 const PRINTED_MM: f64 = 0.0101;
-/// Least difference between the simulators in a pattern length that is more than rounding, mm.
+/// Least difference between the simulators in a pattern length that is more than rounding.
 const SAME_PATTERN_MM: f64 = 0.011;
 /// Ratio of a size step to the next below which the step is no grading.
 const UNEVEN_GRADE: f64 = 0.02;
 
-/// Checks the tables as a whole.
 pub(super) fn check(tables: &Tables) -> Audit {
     let mut findings = Vec::new();
     for of in tables.garments() {
@@ -72,7 +71,6 @@ fn copies(rows: &[&Row], of: &Sized, simulator: Simulator) -> Vec<Finding> {
     findings
 }
 
-/// Pattern lengths that differ between the simulators' tables.
 fn patterns(tables: &Tables, of: &Sized) -> Vec<Finding> {
     let hybrid = tables.table(of, Simulator::Hybrid);
     let differs = |fem: &Row| {

@@ -6,10 +6,8 @@ use fit::Simulator;
 use store::columns::simulator;
 use store::{InOrigin, Origin, Result};
 
-/// Subjects in the columns of every table.
 pub(super) const SUBJECTS: [&str; 6] = ["i", "ii", "iii", "iv", "v", "vi"];
 
-/// A garment of one size.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Sized {
     pub garment: String,
@@ -22,7 +20,6 @@ impl std::fmt::Display for Sized {
     }
 }
 
-/// A row of a measurement table: one measurement on six subjects.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Row {
     pub table: String,
@@ -44,7 +41,6 @@ impl Row {
         self.l3d_mm[subject] / self.l2d_mm
     }
 
-    /// Place of the row in the thesis, in words.
     pub fn place(&self) -> String {
         format!("table {}, row #{} {}", self.table, self.no, self.name)
     }
@@ -83,7 +79,6 @@ pub(super) struct Preposition {
     pub chi: f64,
 }
 
-/// All printed tables.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Tables {
     pub rows: Vec<Row>,
@@ -95,7 +90,6 @@ pub(super) struct Tables {
 }
 
 impl Tables {
-    /// Reads the published tables from the database.
     pub fn read(connection: &Connection) -> Result<Self> {
         let rows = "SELECT table_no, garment, size, simulator, measurement_no, measurement, l2d_mm, l3d_mm, chi,
             chi_mean, chi_sd FROM published ORDER BY garment, size, simulator, measurement_no";
@@ -127,24 +121,22 @@ impl Tables {
         })
     }
 
-    /// Garments with their sizes, each once.
     pub fn garments(&self) -> Vec<Sized> {
         let mut found: Vec<Sized> = self.rows.iter().map(|row| row.of.clone()).collect();
         found.dedup();
         found
     }
 
-    /// Rows of a garment's size by one simulator, in order.
     pub fn table(&self, of: &Sized, simulator: Simulator) -> Vec<&Row> {
         self.rows.iter().filter(|row| row.of == *of && row.simulator == simulator).collect()
     }
 
-    /// Every chi of a garment's size on a subject, recomputed from the lengths.
+    /// Chi recomputed from the lengths.
     pub fn chis(&self, of: &Sized, simulator: Simulator, subject: usize) -> Vec<f64> {
         self.table(of, simulator).into_iter().map(|row| row.ratio(subject)).collect()
     }
 
-    /// Mean |chi - 1| of a garment's size on a subject, recomputed from the lengths.
+    /// Mean |chi - 1|, recomputed from the lengths.
     pub fn ei(&self, of: &Sized, simulator: Simulator, subject: usize) -> f64 {
         let chis = self.chis(of, simulator, subject);
         chis.iter().map(|chi| (chi - 1.0).abs()).sum::<f64>() / chis.len() as f64

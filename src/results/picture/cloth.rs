@@ -11,14 +11,12 @@ use render::{self, Mapping, Print, Rgb, Texture, Weave};
 use sim::Fabric;
 use store::{Result, StudyError};
 
-/// Repeat of the check, m: two squares of 20 mm.
+/// Two squares of 20 mm.
 const CHECK_M: f64 = 0.04;
-/// Greatest repeat that is accepted, mm.
+/// Greatest repeat that is accepted.
 const LONGEST_MM: f64 = 5000.0;
-/// Colour of undyed yarn.
 const UNDYED: Rgb = Rgb(0xe9, 0xe4, 0xd8);
 
-/// Pattern on a cloth.
 #[derive(Clone, Debug, PartialEq)]
 enum Kind {
     /// The weave or knit of the garment's own fabric.
@@ -31,11 +29,10 @@ enum Kind {
 /// A cloth of some or all pieces of a garment, written `[PIECE=]WHAT[#RRGGBB][@MM]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cloth {
-    /// Piece that is cut from this cloth; `None` for all pieces that no other cloth names.
+    /// `None` for all pieces that no other cloth names.
     piece: Option<String>,
     kind: Kind,
     colour: Option<Rgb>,
-    /// Length of one repeat, mm.
     repeat_mm: Option<f64>,
 }
 
@@ -46,9 +43,6 @@ impl Cloth {
     /// Parses `[PIECE=]WHAT[#RRGGBB][@MM]`. WHAT is `fabric` (the weave of the garment's own fabric), `plain`, `twill`,
     /// `jersey`, `rib`, `check` or an image file; MM is the length of one repeat. Without MM yarns have their true
     /// size, and an image is shown once on each piece.
-    ///
-    /// # Errors
-    /// [`StudyError::Refused`] for an empty name or a repeat that no cloth has.
     pub fn parse(text: &str) -> Result<Self> {
         let refused =
             |problem: String| StudyError::Refused { what: "cloth", name: text.to_owned(), problems: vec![problem] };
@@ -80,7 +74,6 @@ impl Cloth {
         Ok(Self { piece, kind, colour, repeat_mm })
     }
 
-    /// Picture of one repeat, with its mapping onto the pieces.
     fn texture(&self, fabric: &Fabric, own: Rgb) -> Result<(Texture, Mapping)> {
         let colour = self.colour.unwrap_or(own);
         let woven = |weave: Weave| {
@@ -124,7 +117,7 @@ fn weave(fabric: &Fabric) -> Weave {
     }
 }
 
-/// Textures of a garment cut from several cloths. A piece that no cloth names keeps its simulator's colour.
+/// A piece that no cloth names keeps its simulator's colour.
 pub(super) fn print(cloths: &[Cloth], garment: &Garment, fabric: &Fabric, own: Rgb) -> Result<Print> {
     let bare = RgbaImage::from_pixel(1, 1, Rgba([own.0, own.1, own.2, 255]));
     let mut drawn = vec![(Texture::new(&bare), Mapping::Piece)];

@@ -5,7 +5,6 @@ use geom::V3;
 use pattern::Garment;
 use render::Scale;
 
-/// Field or pattern that colours the cloth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Map {
     /// No map: the simulator's own colour.
@@ -28,21 +27,20 @@ pub enum Map {
 const STRETCH_REACH: f64 = 8.0;
 /// Tension at the end of the colour scale, N/m. A strip 1 cm wide then carries about 100 g.
 const TENSION_REACH: f64 = 100.0;
-/// Pressure at the end of the colour scale, kPa. From there on clothes feel tight; compression stockings press with 2
-/// to 4 kPa.
+/// Pressure at the end of the colour scale. From there on clothes feel tight; compression stockings press with 2 to 4
+/// kPa.
 const PRESSURE_REACH_KPA: f64 = 2.0;
 /// Departure of chi from 1 at the ends of the colour scale, as in the report's tables.
 const CHI_REACH: f64 = 0.15;
-/// Gap at the ends of the colour scale, mm; below 0 the cloth lies inside the body.
+/// Gap at the ends of the colour scale; below 0 the cloth lies inside the body.
 const GAP_REACH_MM: f64 = 100.0;
 
 impl Map {
-    /// All maps, in the order in which they are offered.
+    /// Order in which maps are offered.
     pub const ALL: [Self; 7] =
         [Self::Plain, Self::Check, Self::Stretch, Self::Tension, Self::Pressure, Self::Gap, Self::Chi];
 
     /// Name on screens and in the command line.
-    #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Plain => "plain",
@@ -55,8 +53,7 @@ impl Map {
         }
     }
 
-    /// Colour scale of the map's values; `None` for a map without values.
-    #[must_use]
+    /// `None` for a map without values.
     pub fn scale(self) -> Option<Scale> {
         match self {
             Self::Plain | Self::Check => None,
@@ -88,7 +85,6 @@ mod tests {
     use pattern::garment::{MaterialLine, MaterialPoint, Measurement, MeasurementKind};
     use sim::laboratory;
 
-    /// A square metre of cloth.
     fn square() -> Garment {
         laboratory::garment(laboratory::sheets::sheet(1, 1, 1.0))
     }

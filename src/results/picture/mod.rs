@@ -28,9 +28,9 @@ use sim::{self, Drape, Fabric};
 use store::{InOrigin, JobId, Origin, Result, StageKind, Store, StudyError, Value, cache, read, sql};
 use wardrobe::catalogue::read_fabric;
 
-/// Greatest distance in height from a level of the body at which cloth counts as at the level, m.
+/// Greatest distance in height at which cloth counts as at a level of the body.
 const NEAR_M: f64 = 0.02;
-/// Depth inside the body to which a gap map shows cloth, m.
+/// Depth inside the body to which a gap map shows cloth.
 const WITHIN_M: f64 = 0.05;
 
 /// Index of the body's layer in a scene, followed by the cloth and then by the garments under it.
@@ -40,19 +40,17 @@ const CLOTH: usize = 1;
 /// Number of results kept ready, so that those of a comparison turn quickly.
 const SCENES_KEPT: usize = 3;
 
-/// Direction and enlargement of a view on a drape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Look {
-    /// Angle about the vertical from the front towards the subject's right, degrees.
+    /// Angle about the vertical from the front towards the subject's right.
     pub azimuth_deg: i32,
-    /// Enlargement of the picture about its middle, %.
+    /// Enlargement about the picture's middle.
     pub zoom_pct: u32,
-    /// Height of the picture's middle above the garment's, % of half the garment's height.
+    /// Height of the picture's middle above the garment's, in parts of half the garment's height.
     pub rise_pct: i32,
 }
 
 impl Look {
-    /// Camera in which meshes fill the picture, times the enlargement.
     pub(crate) fn camera<'a>(self, meshes: impl IntoIterator<Item = &'a TriMesh>, width: u32, height: u32) -> Camera {
         let Self { azimuth_deg, zoom_pct, rise_pct } = self;
         let frame = Zoom { zoom_pct, rise_pct }.of(Frame::enclosing(meshes, aspect(width, height)));
@@ -67,18 +65,16 @@ struct Stage {
     meshes: [TriMesh; 2],
 }
 
-/// A stored result: the body and the garment on it.
 pub(crate) struct Dressed {
     simulator: Simulator,
-    /// Stage of the simulation that is shown.
     stage: sim::Stage,
     pub garment: Garment,
     fabric: Fabric,
-    /// Heights of the body's levels above the floor, m.
+    /// Heights above the floor, m.
     levels: BTreeMap<&'static str, f64>,
     pub body: TriMesh,
     pub cloth: TriMesh,
-    /// Garments under the garment; empty unless it is a layer of an outfit.
+    /// Garments beneath; empty unless the garment is a layer of an outfit.
     under: Vec<TriMesh>,
     /// Positions of the garment at earlier stages that the simulator keeps.
     earlier: Vec<sim::Staged>,
@@ -86,7 +82,6 @@ pub(crate) struct Dressed {
     fields: OnceLock<Fields>,
 }
 
-/// Fields of the sewn cloth at the vertices of the garment.
 struct Fields {
     stretches_pct: Vec<f64>,
     tensions_n_m: Vec<f64>,
@@ -104,7 +99,7 @@ impl Fields {
 }
 
 impl Dressed {
-    /// Lit scene of the pop-up; `None` where the simulator has no such stage.
+    /// `None` where the simulator has no such stage.
     pub fn popup_scene(&self) -> Option<Result<Scene>> {
         let popup = self.earlier.iter().find(|staged| staged.stage == sim::Stage::Popup)?;
         let cloth = TriMesh { positions: popup.positions.clone(), triangles: self.cloth.triangles.clone() };
@@ -112,7 +107,7 @@ impl Dressed {
         Some(Scene::new(layers).origin(Origin::Render))
     }
 
-    /// Returns the result with the garment at a stage; `None` where the simulator keeps no such stage.
+    /// `None` where the simulator keeps no such stage.
     fn at(mut self, stage: sim::Stage) -> Option<Self> {
         if stage != self.stage {
             let place = self.earlier.iter().position(|staged| staged.stage == stage)?;
@@ -138,14 +133,13 @@ impl Dressed {
         if map.scale().is_some() { Material { back: Rgb(0x6c, 0x70, 0x76), ..own } } else { own }
     }
 
-    /// Returns the cloth, welded along its seams.
+    /// Cloth welded along its seams.
     pub fn sewn(&self) -> Result<Sewn<'_>> {
         let sewn = Sewn::new(&self.garment, &self.fabric, &self.cloth.positions).origin(Origin::Render)?;
         self.fields.get_or_init(|| Fields::of(&sewn));
         Ok(sewn)
     }
 
-    /// Returns the fields of the sewn cloth.
     fn fields(&self) -> Result<&Fields> {
         if let Some(known) = self.fields.get() {
             return Ok(known);
@@ -187,7 +181,7 @@ impl Dressed {
         self.scene_in(map, &[], None)
     }
 
-    /// Lit scene of a map. On [`Map::Plain`] the garment is cut from `cloths`, and the body has the colour `skin`.
+    /// On [`Map::Plain`] the garment is cut from `cloths`, and the body has the colour `skin`.
     fn scene_in(&self, map: Map, cloths: &[Cloth], skin: Option<Rgb>) -> Result<Scene> {
         let (form, paint) = self.look(map, cloths, skin)?;
         let own = [Layer::new(&self.body, form), Layer::new(&self.cloth, self.material_under(map)).painted(paint)];
@@ -203,7 +197,6 @@ impl Dressed {
         painted.origin(Origin::Render)
     }
 
-    /// Material of the body and paint of the cloth.
     fn look(&self, map: Map, cloths: &[Cloth], skin: Option<Rgb>) -> Result<(Material, Paint)> {
         let values = self.values(map)?;
         let bare = skin.map_or_else(Material::form, Material::skin);
@@ -237,7 +230,6 @@ pub(crate) fn tension_near(worn: &Dressed, level: &str) -> Result<Option<f64>> {
     Ok((!near.is_empty()).then(|| near.iter().sum::<f64>() / near.len() as f64))
 }
 
-/// Width of a picture divided by its height.
 fn aspect(width: u32, height: u32) -> f64 {
     f64::from(width.max(1)) / f64::from(height.max(1))
 }
@@ -245,11 +237,10 @@ fn aspect(width: u32, height: u32) -> f64 {
 /// Results shown last, kept lit so that other views of them are quick.
 #[derive(Default)]
 pub struct Scenes {
-    /// Kept results, the latest last.
+    /// Latest last.
     kept: Vec<Kept>,
 }
 
-/// A result that is kept lit.
 struct Kept {
     job: JobId,
     map: Map,
@@ -257,11 +248,8 @@ struct Kept {
 }
 
 impl Scenes {
-    /// Picture of a result from any side, on transparent ground. The garment fills it, times the look's enlargement,
-    /// and the body is cut off at its edges. Meant for small pictures.
-    ///
-    /// # Errors
-    /// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
+    /// Picture of a result from any side, on transparent ground. The garment fills it, times the enlargement, and the
+    /// body is cut off at the edges. Meant for small pictures.
     pub fn look(
         &mut self,
         store: &Store,
@@ -286,9 +274,6 @@ impl Scenes {
 
 /// Writes body and garment of a result as a mesh file. Texture coordinates of the garment are positions in the pattern,
 /// m. A map colours it; formats with room for them also have the map's values.
-///
-/// # Errors
-/// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
 pub fn mesh_file(store: &Store, id: JobId, format: MeshFormat, map: Map) -> Result<Vec<u8>> {
     let dressed = dressed(store, id)?;
     let values = dressed.values(map)?;
@@ -317,10 +302,8 @@ fn stage(store: &Store, id: JobId, map: Map) -> Result<Stage> {
     Ok(Stage { scene, meshes: [dressed.body, dressed.cloth] })
 }
 
-/// Reads a result with its garment as draped.
-///
-/// # Errors
-/// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
+/// Reads a result as draped. Fails with [`StudyError::NotFound`] while there is none, with [`StudyError::Artefact`]
+/// when it is no longer stored.
 pub(crate) fn dressed(store: &Store, id: JobId) -> Result<Dressed> {
     let job = read::job(store, id)?;
     let model: Model = product(store, id, StageKind::Body)?;
@@ -338,7 +321,6 @@ pub(crate) fn dressed(store: &Store, id: JobId) -> Result<Dressed> {
     Ok(Dressed { simulator, stage, garment, fabric, levels, body, cloth, under, earlier, fields })
 }
 
-/// Draped cloth of a job.
 fn worn(store: &Store, id: JobId) -> Result<TriMesh> {
     let Meshes(meshes) = product(store, id, StageKind::Mesh)?;
     let drape: Drape = product(store, id, StageKind::Drape)?;
@@ -346,7 +328,6 @@ fn worn(store: &Store, id: JobId) -> Result<TriMesh> {
     Ok(TriMesh { positions: drape.positions, triangles })
 }
 
-/// Fabric of a job's garment.
 fn fabric_of(store: &Store, id: JobId) -> Result<Fabric> {
     let table = sql::query(store, &format!("SELECT fabric_id FROM job WHERE job_id = {id}"))?;
     match table.rows.first().and_then(|row| row.first()) {
@@ -355,7 +336,6 @@ fn fabric_of(store: &Store, id: JobId) -> Result<Fabric> {
     }
 }
 
-/// Reads a stored product of a job's stage.
 pub(crate) fn product<T: cache::Artefact>(store: &Store, id: JobId, stage: StageKind) -> Result<T> {
     let used = read::stages(store, id)?.into_iter().find(|used| used.stage == stage.as_str());
     let missing = || StudyError::NotFound { what: "result of job", name: id.to_string(), known: vec![] };

@@ -8,22 +8,20 @@ use render::{self, Camera, Cell, Frame, Rgb, Scene, View};
 use sim::Stage;
 use store::{InOrigin, JobId, Origin, Result, Store, StudyError, read};
 
-/// Time of one turn of a turntable, ms.
+/// Time of one turn.
 const TURN_MS: u32 = 6000;
 /// Angle, enlargement and height of a close-up, as in [`Zoom`].
 const CLOSE_UP: (f64, Zoom) = (24.0, Zoom { zoom_pct: 280, rise_pct: 40 });
 
-/// Enlargement of a picture, and the height of its middle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Zoom {
-    /// Enlargement of the garment, %; at 100 it fills the picture.
+    /// Enlargement of the garment; at 100 it fills the picture.
     pub zoom_pct: u32,
-    /// Height of the picture's middle above the garment's, % of half the garment's height.
+    /// Height of the picture's middle above the garment's, in parts of half the garment's height.
     pub rise_pct: i32,
 }
 
 impl Zoom {
-    /// Enlarges a frame.
     pub(super) fn of(self, mut frame: Frame) -> Frame {
         frame.centre.z += f64::from(self.rise_pct) / 100.0 * frame.height_m / 2.0;
         frame.height_m *= 100.0 / f64::from(self.zoom_pct.max(1));
@@ -31,14 +29,11 @@ impl Zoom {
     }
 }
 
-/// One picture of a result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shot {
-    /// From one of the standard views.
     View(View),
-    /// From near, to show the cloth.
     CloseUp,
-    /// Turned about the vertical by an angle from the front towards the subject's right, degrees.
+    /// Angle about the vertical from the front towards the subject's right, degrees.
     Turned(f64),
 }
 
@@ -52,27 +47,25 @@ impl Shot {
     }
 }
 
-/// Options of a picture.
 #[derive(Clone, Debug)]
 pub struct Order {
     /// Shots; each makes a picture.
     pub shots: Vec<Shot>,
     /// Stages of the simulation; each makes a picture.
     pub stages: Vec<Stage>,
-    /// Map that colours the cloth.
     pub map: Map,
-    /// Cloths of the garment, on [`Map::Plain`].
+    /// Cloths on [`Map::Plain`].
     pub cloths: Vec<Cloth>,
-    /// Colour of the skin; `None` shows a dress form.
+    /// `None` shows a dress form.
     pub skin: Option<Rgb>,
-    /// Enlargement; `None` shows body and garment as a whole.
+    /// `None` shows body and garment as a whole.
     pub zoom: Option<Zoom>,
     /// Pixels of each shot, across and down.
     pub size: (u32, u32),
 }
 
 impl Order {
-    /// Camera of a shot. `whole` encloses bodies and garments, `garments` only the garments.
+    /// `whole` encloses bodies and garments, `garments` only the garments.
     fn camera(&self, shot: Shot, whole: Frame, garments: Frame) -> Camera {
         let frame = self.zoom.map_or(whole, |zoom| zoom.of(garments));
         match shot {
@@ -93,7 +86,7 @@ impl Order {
         Ok(picture)
     }
 
-    /// Frames for all pictures: around bodies and garments, and around only the garments.
+    /// Frames around bodies and garments, and around only the garments.
     fn frames(&self, dressed: &[Dressed]) -> [Frame; 2] {
         let cloth = || dressed.iter().map(|worn| &worn.cloth);
         let all: Vec<&TriMesh> = dressed.iter().map(|worn| &worn.body).chain(cloth()).collect();
@@ -102,11 +95,7 @@ impl Order {
     }
 }
 
-/// Draws results as a PNG file: a single shot of a single result by itself, several on a sheet at one scale.
-///
-/// # Errors
-/// [`StudyError::NotFound`] for a job without a result, a stage that its simulator does not keep, or a cloth that names
-/// no piece. Others for a file that is no image.
+/// PNG file: a single shot of a single result by itself, several on a sheet at one scale.
 pub fn pictures(store: &Store, ids: &[JobId], order: &Order) -> Result<Vec<u8>> {
     let worn = ids.iter().flat_map(|id| order.stages.iter().map(move |stage| (*id, *stage)));
     let worn: Vec<(JobId, Stage)> = worn.collect();
@@ -136,7 +125,6 @@ pub fn pictures(store: &Store, ids: &[JobId], order: &Order) -> Result<Vec<u8>> 
     picture.origin(Origin::Render)
 }
 
-/// Reads a result, with its garment at a stage of the simulation.
 fn dressed_at(store: &Store, id: JobId, stage: Stage) -> Result<Dressed> {
     let worn = picture::dressed(store, id)?;
     let known = worn.earlier.iter().map(|staged| staged.stage).chain([worn.stage]);
@@ -145,10 +133,7 @@ fn dressed_at(store: &Store, id: JobId, stage: Stage) -> Result<Dressed> {
     worn.at(stage).ok_or(StudyError::NotFound { what: "stage", name, known })
 }
 
-/// Draws a result that turns once about the vertical, as an endless animated PNG file of that many pictures.
-///
-/// # Errors
-/// As [`pictures`].
+/// Animated PNG file of one turn about the vertical, repeated endlessly.
 pub fn turntable(store: &Store, id: JobId, order: &Order, pictures: u32) -> Result<Vec<u8>> {
     let dressed = [picture::dressed(store, id)?];
     let [whole, garments] = order.frames(&dressed);

@@ -67,7 +67,6 @@ struct Side {
     flat_m: f64,
     worn_m: f64,
     stretched_m: f64,
-    /// Ends of the side in space.
     ends: [V3; 2],
     normals: Vec<V3>,
 }
@@ -99,7 +98,6 @@ fn sides(worn: &Dressed, along: usize, off: f64) -> BTreeMap<Key, Side> {
     sides
 }
 
-/// Adds the part of a side that lies in one triangle.
 fn add(side: &mut Side, part: Side) {
     if side.met == 0.0 {
         *side = part;

@@ -11,8 +11,8 @@ use render::{Camera, Frame, View};
 use store::comments::{Remark, Side};
 use store::{JobId, Result, StageKind, Store};
 
-/// Places of remarks in the pictures of a drape in `frame`, as shares of a picture's width from the left and of its
-/// height from the top; `None` for a place that no part of body or garment has, or that the picture does not show.
+/// Places of remarks in the pictures, as shares of the width from the left and of the height from the top; `None` for a
+/// place that nothing has or that the picture does not show.
 pub(super) fn spots(store: &Store, job: JobId, frame: Frame, remarks: &[&Remark]) -> Result<Vec<Option<[f64; 2]>>> {
     let Model { body } = picture::product(store, job, StageKind::Body)?;
     let Dressed { cloth, .. } = picture::dressed(store, job)?;
@@ -25,7 +25,6 @@ pub(super) fn spots(store: &Store, job: JobId, frame: Frame, remarks: &[&Remark]
     Ok(remarks.iter().map(spot).collect())
 }
 
-/// Place of a world point in the picture of a side.
 fn share(frame: Frame, side: Side, point: V3) -> [f64; 2] {
     let view = match side {
         Side::Front => View::Front,
@@ -51,7 +50,6 @@ fn place(body: &Body, cloth: &[V3], remark: &Remark) -> Option<V3> {
     named.first().map(|(_, point)| *point)
 }
 
-/// Parts of body and garment besides the levels.
 fn parts(body: &Body, cloth: &[V3], side: Side) -> Vec<(&'static str, V3)> {
     let middle = |a: V3, b: V3| 0.5 * (a + b);
     let at = |joint: Joint| body.skeleton.at(joint);

@@ -54,7 +54,6 @@ fn add_body(store: &Store, job: &JobRow, all: &mut Drapes) -> Result<()> {
     Ok(())
 }
 
-/// Sewn cloth of a drape, with the values of the maps that it has.
 struct Shape {
     mesh: TriMesh,
     maps: Vec<(&'static str, Scale, Vec<f64>)>,
@@ -86,7 +85,6 @@ fn lines(store: &Store, id: JobId, garment: &Garment, positions: &[V3]) -> Resul
     Ok(found)
 }
 
-/// Length of a point of measure in words, flat and draped.
 fn words(store: &Store, id: JobId, point: Point) -> Result<Option<String>> {
     let point = quoted(point.as_str());
     let sql = format!(

@@ -40,19 +40,16 @@ pub(super) struct BodyFacts {
     measured: Option<Vec<Option<f64>>>,
 }
 
-/// Scan of a subject's body: its file, and the guesses and repairs made when it was read.
 struct ScanFacts {
     file: String,
     notes: Vec<String>,
 }
 
 impl BodyFacts {
-    /// True if the body is a scan.
     pub(super) fn is_scan(&self) -> bool {
         self.scan.is_some()
     }
 
-    /// Origin of the body, in words.
     fn origin(&self) -> String {
         match &self.scan {
             Some(ScanFacts { file, notes }) if notes.is_empty() => format!("scan {file}"),
@@ -63,12 +60,12 @@ impl BodyFacts {
     }
 }
 
-/// Tape measurements of a body, in the order of [`MEASUREMENTS`]; `None` for mass.
+/// Order is that of [`MEASUREMENTS`]; `None` for mass.
 fn readings(girths: &Girths) -> Vec<Option<f64>> {
     MEASUREMENTS.iter().map(|(key, ..)| girths.written(key)).collect()
 }
 
-/// Table of the subjects, with the measurements of their bodies; where none was dressed, the given ones.
+/// Measurements of the bodies; where none was dressed, the given ones.
 pub(super) fn subject_table(bodies: &[BodyFacts]) -> SubjectTable {
     let column = |(_, name, unit, decimals): (&str, &str, &str, usize)| Column {
         name: name.to_owned(),
@@ -86,7 +83,6 @@ pub(super) fn subject_table(bodies: &[BodyFacts]) -> SubjectTable {
     SubjectTable { columns: MEASUREMENTS.map(column).to_vec(), rows: bodies.iter().map(row).collect() }
 }
 
-/// Bodies that differ from their given measurements.
 fn mismatches(bodies: &[BodyFacts]) -> Vec<String> {
     let mut told = Vec::new();
     for body in bodies {
@@ -120,7 +116,6 @@ pub(super) fn verdicts(store: &Store, study: &str) -> Result<Vec<Verdict>> {
     Ok(read::recommendations(store, study)?.into_iter().map(verdict).collect())
 }
 
-/// Size that each subject of a study should wear.
 pub(super) fn size_tips(store: &Store, study: &str, bodies: &[BodyFacts]) -> Result<Vec<SizeTip>> {
     let mut tips = Vec::new();
     let eased = read::ease(store, study)?;
@@ -145,7 +140,6 @@ pub(super) fn size_tips(store: &Store, study: &str, bodies: &[BodyFacts]) -> Res
     Ok(tips)
 }
 
-/// Remarks that limit what the report's numbers mean.
 pub(super) fn audit(store: &Store, study: &str, jobs: &[JobRow], bodies: &[BodyFacts]) -> Result<Vec<AuditNote>> {
     let mut notes = Vec::new();
     let mut note = |severity, text: String| notes.push(AuditNote { severity, text });
@@ -178,7 +172,6 @@ pub(super) fn audit(store: &Store, study: &str, jobs: &[JobRow], bodies: &[BodyF
     Ok(notes)
 }
 
-/// Subjects of a study, with the bodies that were dressed.
 pub(super) fn bodies(store: &Store, study: &str, jobs: &[JobRow]) -> Result<Vec<BodyFacts>> {
     let keys = MEASUREMENTS.map(|(key, ..)| format!("subject.{key}")).join(", ");
     let table = sql::query(
@@ -222,7 +215,6 @@ fn scan_facts(person: &Person) -> Option<ScanFacts> {
     Some(ScanFacts { file: file.name.clone(), notes })
 }
 
-/// Subjects of the thesis that Toile reproduces, as it prints them.
 pub(super) fn published_bodies(store: &Store) -> Result<Vec<BodyFacts>> {
     let keys = MEASUREMENTS.map(|(key, ..)| key).join(", ");
     let table = sql::query(
@@ -260,7 +252,7 @@ pub(super) fn fabric_facts(store: &Store, study: &str) -> Result<Vec<FabricFacts
     Ok(table.rows.iter().map(facts).collect())
 }
 
-/// Assumptions on the pattern of each garment, in the size of its first job.
+/// Assumptions on each garment's pattern, in the size of its first job.
 pub(super) fn assumed(store: &Store, jobs: &[JobRow]) -> Result<Vec<Assumed>> {
     let mut found: Vec<Assumed> = Vec::new();
     for job in jobs {
@@ -316,7 +308,6 @@ pub(super) fn ease_matrices(store: &Store, study: &str) -> Result<Vec<EaseMatrix
     Ok(matrices)
 }
 
-/// Number in a cell of a table.
 pub(super) fn number(value: &Value) -> Option<f64> {
     match value {
         Value::Real(number) => Some(*number),
@@ -325,7 +316,6 @@ pub(super) fn number(value: &Value) -> Option<f64> {
     }
 }
 
-/// Named value from a cell of a table.
 fn fact((name, value): (&String, &Value)) -> Fact {
     let value = match value {
         Value::Real(number) if *number != 0.0 && number.abs() < 1e-3 => format!("{number:.3e}"),
@@ -338,7 +328,6 @@ fn fact((name, value): (&String, &Value)) -> Fact {
 pub(super) mod tests {
     use super::*;
 
-    /// A subject with the body that was dressed, from the scan where one is given.
     pub(in crate::reporting) fn body(scan: Option<&str>) -> BodyFacts {
         let scan = scan.map(|file| ScanFacts { file: file.to_owned(), notes: vec!["14 holes closed".to_owned()] });
         BodyFacts { name: "a".into(), sex: "male".into(), scan, asked: vec![Some(1750.0)], measured: Some(vec![None]) }

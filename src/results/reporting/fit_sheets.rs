@@ -14,7 +14,6 @@ use report::data::{Fact, FitCell, FitComment, FitRow, FitSheet, FitSize, FitTabl
 use store::comments::{self, Comment, Remark, State};
 use store::{Result, Store};
 
-/// Fit sheets of a study, whose pictures have a `frame`.
 pub(super) fn sheets(
     store: &Store,
     study: &str,
@@ -110,7 +109,6 @@ fn round(comments: &[&Comment]) -> String {
     format!("Round {last}, {signed}; {open} open of {}.", comments.len())
 }
 
-/// Words on hem and pressure of a drape.
 fn told(size: &SizeWorn) -> String {
     let hem = size.hem_words().map(|words| format!("Hem {words}."));
     let most = size.pressure.first().map(|most| {
@@ -139,12 +137,10 @@ fn whole(value: f64) -> String {
     format!("{:.0}", value.round() + 0.0).replace('-', "\u{2212}")
 }
 
-/// Whole number with its sign.
 fn signed(value: f64) -> String {
     if value < -0.5 { format!("\u{2212}{:.0}", -value) } else { format!("+{:.0}", value.abs()) }
 }
 
-/// Table of the ease at every level, with its target.
 fn ease(card: &FitCard, sizes: &[SizeSits], names: &[String]) -> FitTable {
     let row = |level: &str| {
         let level_of = |size: &SizeSits| size.levels.iter().find(|known| known.level == level).cloned();
@@ -174,7 +170,6 @@ fn ease(card: &FitCard, sizes: &[SizeSits], names: &[String]) -> FitTable {
     }
 }
 
-/// Table of balance, pressure, folds and gaps of the drapes.
 fn hang(sizes: &[Option<&SizeWorn>], names: &[String]) -> FitTable {
     let mut rows = Vec::new();
     let mut add = |name: &str, of: &dyn Fn(&SizeWorn) -> Option<(String, String)>| {
@@ -235,7 +230,7 @@ fn hang(sizes: &[Option<&SizeWorn>], names: &[String]) -> FitTable {
     FitTable { caption: "How it hangs and what it presses".to_owned(), columns: names.to_vec(), rows }
 }
 
-/// Names that occur in any size, each once, in order of appearance.
+/// Each name once, in order of appearance.
 fn names_among<'a>(sizes: &[Option<&'a SizeWorn>], of: impl Fn(&'a SizeWorn) -> Vec<&'a str>) -> Vec<&'a str> {
     let mut names: Vec<&str> = Vec::new();
     for name in sizes.iter().flatten().flat_map(|size| of(size)) {
@@ -246,7 +241,6 @@ fn names_among<'a>(sizes: &[Option<&'a SizeWorn>], of: impl Fn(&'a SizeWorn) -> 
     names
 }
 
-/// Table of points of measure, flat and draped.
 fn points(sizes: &[Option<&SizeWorn>], names: &[String]) -> FitTable {
     let row = |point: Point| {
         let name = point.as_str();

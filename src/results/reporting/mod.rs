@@ -19,12 +19,11 @@ use spec::patterns;
 use std::fmt;
 use store::{InOrigin, JobFilter, Origin, PUBLISHED, Result, Store, Table, Value, evidence, read, sql};
 
-/// Part of a report that is being made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Part {
-    /// Name of the part, such as `pictures`.
+    /// Such as `pictures`.
     pub name: &'static str,
-    /// Number of the step that is done now, from 1, and number of steps; 0 of 0 where they are not counted.
+    /// Number of the present step, from 1, and number of steps; 0 of 0 where they are not counted.
     pub step: [usize; 2],
 }
 
@@ -40,7 +39,6 @@ impl fmt::Display for Part {
     }
 }
 
-/// Part without steps.
 fn part(name: &'static str) -> Part {
     Part { name, step: [0, 0] }
 }
@@ -63,7 +61,6 @@ const RAW: [(&str, &str, &str); 14] = [
     ("v_provenance", "provenance.csv", "hashes, versions and machine of every result"),
 ];
 
-/// Sentences on the origin of bodies: those that are built, and those that are scans.
 const BUILT: &str = "A body is built from the measurements given.";
 const SCANNED: &str = "The body of a scan is the scan itself, cleaned and closed, and measured there.";
 
@@ -81,7 +78,6 @@ const METHODS: [&str; 5] = [
      lengths where the pattern length agrees within 0.5 mm.",
 ];
 
-/// Sentences on the limits of bodies: those that are built, and those that are scans.
 const BUILT_LIMIT: &str =
     "Bodies that are built are shaped from a few measurements: where they differ from the person, so does the drape.";
 const SCANNED_LIMIT: &str =
@@ -91,12 +87,8 @@ const LIMITS: [&str; 1] = [
     "A fabric of the library is one measured cloth or stands for a class of cloths; its source tells which of its numbers are of another cloth. Friction is an estimate throughout.",
 ];
 
-/// Returns the files of a study's report by their relative paths: `index.html`, the other page, pictures, charts,
-/// drawings, CSV. Without a purpose, `index.html` compares the simulators where the study has both, and else shows the
-/// fit. `tell` hears of each part.
-///
-/// # Errors
-/// When there is no such study, or a stored result cannot be read.
+/// Files of a study's report by their relative paths: `index.html`, the other page, pictures, charts, drawings, CSV.
+/// Without a purpose, `index.html` compares the simulators where the study has both, and else shows the fit.
 pub fn report(store: &Store, study: &str, purpose: Option<Purpose>, tell: Tell<'_>) -> Result<Vec<(String, Vec<u8>)>> {
     if study == PUBLISHED {
         return published::report_published(store);
@@ -183,14 +175,13 @@ fn of_bodies<'a>(bodies: &[BodyFacts], [built, scanned]: [&'a str; 2]) -> impl I
     built.into_iter().chain(scanned)
 }
 
-/// Paragraphs on methods, the first on the origin of the bodies.
+/// Paragraphs, the first on the origin of the bodies.
 fn methods<'a>(of_bodies: impl Iterator<Item = &'a str>) -> Vec<String> {
     let [first, rest @ ..] = METHODS;
     let first = of_bodies.chain([first]).collect::<Vec<_>>().join(" ");
     [first].into_iter().chain(rest.map(str::to_owned)).collect()
 }
 
-/// Rows of a `v_*` view that belong to a study.
 fn of_study(store: &Store, view: &str, study: &str) -> Result<Table> {
     sql::query(store, &format!("SELECT * FROM {view} WHERE study = {}", quoted(study)))
 }
@@ -201,7 +192,7 @@ fn facts(store: &Store, sql: &str) -> Result<Vec<Fact>> {
     Ok(sql::query(store, sql)?.rows.iter().map(row).collect())
 }
 
-/// First value of a query, as text.
+/// First value of a query.
 fn one(store: &Store, sql: &str) -> Result<String> {
     Ok(sql::query(store, sql)?.rows.first().and_then(|row| row.first()).map(Value::to_string).unwrap_or_default())
 }

@@ -38,7 +38,6 @@ const LIMITS: [&str; 3] = [
     "Pop-up sets the hem to its pattern length by construction; the hem counts as controlled.",
 ];
 
-/// Files of the report on the printed numbers.
 pub(super) fn report_published(store: &Store) -> Result<Vec<(String, Vec<u8>)>> {
     let eases = published_eases(store)?;
     let evidence = evidence::evidence(store, PUBLISHED)?;
@@ -68,7 +67,6 @@ pub(super) fn report_published(store: &Store) -> Result<Vec<(String, Vec<u8>)>> 
     Ok(files)
 }
 
-/// Findings of the audit of the tables, as notes.
 fn misprints(store: &Store) -> Result<Vec<AuditNote>> {
     let note = |finding: Finding| AuditNote {
         severity: Severity::Warning,
@@ -99,7 +97,6 @@ fn published_eases(store: &Store) -> Result<BTreeMap<[String; 3], Ease>> {
     Ok(eases)
 }
 
-/// Runs for every garment, size, subject and simulator of the tables.
 fn published_runs(store: &Store, eases: &BTreeMap<[String; 3], Ease>) -> Result<Vec<TryOn>> {
     let table = sql::query(store,
         "SELECT garment, size, substr(garment, 1, instr(garment, '_') - 1) || '-' || subject, simulator, measurement_no,
@@ -124,7 +121,6 @@ fn published_runs(store: &Store, eases: &BTreeMap<[String; 3], Ease>) -> Result<
     Ok(runs)
 }
 
-/// Run that has nothing but printed lengths.
 fn printed_run([garment, size, subject]: &[String; 3], simulator: Simulator, ease: Option<Ease>) -> TryOn {
     TryOn {
         garment: garment.clone(),
@@ -150,7 +146,6 @@ fn printed_run([garment, size, subject]: &[String; 3], simulator: Simulator, eas
     }
 }
 
-/// A measurement from a row of the printed tables.
 fn measured(row: &[Value]) -> Measured {
     let name = row[5].to_string();
     let (printed, chi) = (number(&row[8]).unwrap_or(f64::NAN), number(&row[9]).unwrap_or(f64::NAN));
@@ -166,7 +161,6 @@ fn measured(row: &[Value]) -> Measured {
     }
 }
 
-/// Verdict card of an answer.
 fn verdict(answer: &Answer) -> Verdict {
     let estimate = answer.analysis.estimate;
     Verdict {
@@ -184,7 +178,6 @@ fn verdict(answer: &Answer) -> Verdict {
     }
 }
 
-/// Matrices of the eases, one for each garment.
 fn matrices(eases: &BTreeMap<[String; 3], Ease>) -> Vec<EaseMatrix> {
     let distinct = |axis: usize, garment: &str| {
         let mut names: Vec<String> = Vec::new();

@@ -29,11 +29,8 @@ const MAPS: [(Map, &[View]); 3] = [
     (Map::Gap, &[View::Front]),
 ];
 
-/// Runs with pictures.
 pub(super) struct Album {
-    /// All runs.
     pub runs: Vec<TryOn>,
-    /// Links to contact sheets.
     pub sheets: Vec<RawLink>,
     /// Frame that all pictures share.
     pub frame: Frame,
@@ -86,7 +83,6 @@ pub(super) fn report_runs(
     Ok(Album { runs, sheets: links, frame })
 }
 
-/// Runs with their ease, without pictures.
 fn report_runs_of(store: &Store, jobs: &[JobRow], eases: &[EaseMatrix]) -> Result<Vec<TryOn>> {
     let run_of = |job: &JobRow| {
         let outcome = match job.status {
@@ -133,7 +129,6 @@ fn lacks(store: &Store, id: JobId) -> Result<Option<String>> {
     })
 }
 
-/// A run without ease and pictures.
 fn report_run(store: &Store, job: &JobRow, outcome: Outcome) -> Result<TryOn> {
     let metrics = read::metrics(store, job.id)?;
     let number = |get: fn(&MetricsRow) -> f64| metrics.as_ref().map_or(0.0, get);
@@ -200,7 +195,6 @@ struct Shots {
     files: Vec<(String, Vec<u8>)>,
 }
 
-/// Format of all pictures of a report.
 #[derive(Clone, Copy)]
 struct Format {
     frame: Frame,
@@ -208,12 +202,11 @@ struct Format {
     shrink: f64,
 }
 
-/// Number of results that are worked on at once.
 pub(super) fn threads() -> usize {
     thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// Results of `work` on each item, in order, with a thread for each.
+/// Results in order, with a thread for each item.
 pub(super) fn side_by_side<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     thread::scope(|scope| {
         let threads: Vec<_> = items.iter().map(|item| scope.spawn(|| work(item))).collect();
@@ -225,7 +218,6 @@ pub(super) fn side_by_side<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R
     })
 }
 
-/// Takes the pictures of jobs in parallel.
 fn photograph(jobs: &[JobRow], dressed: &[Option<Dressed>], format: Format) -> Vec<Result<Shots>> {
     let pairs: Vec<(&JobRow, &Option<Dressed>)> = jobs.iter().zip(dressed).collect();
     side_by_side(&pairs, |(job, worn)| {

@@ -25,19 +25,17 @@ pub(super) struct Sheets<'a> {
     open: BTreeMap<(&'a str, &'a str), Sheet>,
 }
 
-/// A sheet that is not yet complete.
 struct Sheet {
     /// Number of jobs still to be added.
     left: usize,
     columns: usize,
-    /// Size of a picture, pixels.
+    /// Pixels of a picture.
     size: [u32; 2],
     cells: Vec<Cell>,
 }
 
 impl Sheet {
-    /// Creates the sheet of `jobs` jobs. Many jobs stand in several columns, so that it is about square and within
-    /// [`SHEET_SIDE`].
+    /// Many jobs stand in several columns, so that the sheet is about square and within [`SHEET_SIDE`].
     fn new(jobs: usize) -> Self {
         let beside = (jobs as f64 / JOBS_HIGH).sqrt().ceil().max(1.0);
         let rows = (jobs as f64 / beside).ceil();
@@ -60,7 +58,6 @@ impl Sheet {
 }
 
 impl<'a> Sheets<'a> {
-    /// Creates the empty sheets for a study's jobs.
     pub(super) fn of(study: &'a str, jobs: &'a [JobRow]) -> Self {
         let mut counts: BTreeMap<_, usize> = BTreeMap::new();
         for job in jobs {
@@ -73,7 +70,7 @@ impl<'a> Sheets<'a> {
         }
     }
 
-    /// Adds the pictures of a job. If they complete a sheet, returns a link to it and its file.
+    /// Returns a link to the sheet and its file once it is complete.
     pub(super) fn add(&mut self, job: &'a JobRow, cells: Vec<Cell>) -> Result<Option<(RawLink, Vec<u8>)>> {
         let (garment, size) = (job.garment.as_str(), job.size.as_str());
         let Some(sheet) = self.open.get_mut(&(garment, size)) else { return Ok(None) };

@@ -47,7 +47,6 @@ fn tolerance(minus_mm: Option<f64>, plus_mm: Option<f64>) -> String {
     }
 }
 
-/// Deviation of a line, with specification, flat and worn length and steps beside it.
 fn cell(line: &[Value]) -> FitCell {
     let [spec, flat, off] = [5, 6, 7].map(|column| number(&line[column]));
     let [step, flat_step, worn] = [9, 10, 11].map(|column| number(&line[column]));

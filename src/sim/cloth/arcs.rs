@@ -23,12 +23,12 @@ geom::constants! {
     "cloth.arcs",
     /// Weight of the curvature tensor of the hinges in the fit; that of a vertex is 1.
     const HINGES: f64 = 0.02;
-    /// Greatest excess of a squared arc as a share of the squared side at rest. Without a bound, crumpled folds would
-    /// grow without limit.
+    /// Greatest excess of a squared arc as a share of the squared side at rest. Without it, crumpled folds would grow
+    /// without limit.
     const MOST: f64 = 0.1;
 }
 
-/// Arcs of the sides of the triangles of a membrane, in the order of its pairs.
+/// Triangle sides of a membrane as arcs, in the order of its pairs.
 #[derive(Clone, Debug, Default)]
 pub struct Arcs {
     /// Weights of the vertices in the curvature along each side, `k = sum weight_j x_j`, m.
@@ -37,7 +37,6 @@ pub struct Arcs {
     pub most: Vec<f64>,
 }
 
-/// Arcs at some positions of the cloth.
 #[derive(Clone, Debug, Default)]
 pub struct Bent {
     /// Excess `c(q) = q / (1 + q / q_max)` of squared arcs over squared chords, m2.
@@ -48,24 +47,21 @@ pub struct Bent {
     pub rates: Vec<f64>,
 }
 
-/// A triangle of cloth at rest, with its neighbours.
 #[derive(Clone, Copy, Debug)]
 pub struct Laid {
-    /// Its corners among the vertices.
     pub vertices: [usize; 3],
-    /// Its corners in (weft, warp), m.
+    /// Corners in (weft, warp).
     pub rest: [V2; 3],
     /// Index of the triangle across each side, and the number of the common side in it.
     pub across: [Option<[usize; 2]>; 3],
 }
 
 impl Laid {
-    /// Vertices at the ends of a side.
     fn ends(&self, side: usize) -> [usize; 2] {
         [self.vertices[side], self.vertices[(side + 1) % 3]]
     }
 
-    /// Its sides in the order of the indices of their ends. A mirrored triangle has the same order.
+    /// Sides in the order of the indices of their ends. A mirrored triangle has the same order.
     fn sides(&self) -> [usize; 3] {
         let mut order = [0, 1, 2];
         order.sort_unstable_by_key(|&side| {
@@ -77,8 +73,7 @@ impl Laid {
 }
 
 impl Arcs {
-    /// Computes the arcs of `pairs`, which are the sides of the triangles.
-    #[must_use]
+    /// `pairs` are the sides of the triangles.
     pub fn new(laid: &[Laid], plates: &[Plate], hinges: &[Hinge], pairs: &PairList, vertices: usize) -> Self {
         let count = pairs.pairs().len();
         let mut found: Vec<Vec<Side>> = vec![Vec::new(); count];
@@ -107,9 +102,8 @@ impl Arcs {
         Self { stencils: Stencils::new(&rows, vertices), most }
     }
 
-    /// Arcs of a part of the cloth with `pairs` of its own. `vertices` are the vertices of the part in the cloth, and
-    /// `name` gives the index in the part of a vertex of the cloth.
-    #[must_use]
+    /// Arcs of a part of the cloth with `pairs` of its own. `name` gives the index in the part of a vertex of the
+    /// cloth.
     pub fn part(&self, all: &PairList, pairs: &PairList, vertices: &[usize], name: impl Fn(usize) -> usize) -> Self {
         let side = |&[i, j]: &[usize; 2]| all.slot(vertices[i], vertices[j]).expect("a side of the whole");
         let sides: Vec<usize> = match self.most.is_empty() {
@@ -124,13 +118,10 @@ impl Arcs {
         }
     }
 
-    /// Vertices of a side with their weights.
     pub fn of(&self, side: usize) -> impl Iterator<Item = (usize, f64)> {
         self.stencils.row(side)
     }
 
-    /// Arcs of the cloth at `x`.
-    #[must_use]
     pub fn bent(&self, x: &[V3]) -> Bent {
         let mut bent = Bent::default();
         for side in 0..self.most.len() {
@@ -145,15 +136,14 @@ impl Arcs {
         bent
     }
 
-    /// Half of the first-order change of the excess of the squared arcs along a displacement, m2.
-    #[must_use]
+    /// Half of the first-order change of the excess along a displacement, m2.
     pub fn changes(&self, bent: &Bent, d: &[V3]) -> Vec<f64> {
         let change = |(side, slope): (usize, &V3)| slope.dot(&self.stencils.sum(side, d));
         bent.slopes.iter().enumerate().map(change).collect()
     }
 
-    /// Adds the forces (N) of the excess of the arcs, where `tensions` (N/m) are the derivatives of the energy by half
-    /// of each squared arc.
+    /// Adds the forces (N) of the excess. `tensions` (N/m) are the derivatives of the energy by half of each squared
+    /// arc.
     pub fn add_forces(&self, bent: &Bent, tensions: &[f64], forces: &mut [V3]) {
         for (side, (slope, tension)) in bent.slopes.iter().zip(tensions).enumerate() {
             let pull = slope * *tension;
@@ -164,7 +154,6 @@ impl Arcs {
     }
 }
 
-/// A side of a triangle in a mesh.
 #[derive(Clone, Copy)]
 struct Side<'a> {
     laid: &'a [Laid],
@@ -175,13 +164,12 @@ struct Side<'a> {
 }
 
 impl Side<'_> {
-    /// The side at rest, m.
     fn along(&self) -> V2 {
         let rest = self.laid[self.t].rest;
         rest[(self.side + 1) % 3] - rest[self.side]
     }
 
-    /// Its triangles, unfolded into the plane of the first.
+    /// Unfolded into the plane of the first.
     fn triangles(&self) -> Vec<(usize, [V2; 3])> {
         let first = &self.laid[self.t];
         let ends = [first.rest[self.side], first.rest[(self.side + 1) % 3]];
@@ -189,7 +177,7 @@ impl Side<'_> {
         [Some((self.t, first.rest)), other].into_iter().flatten().collect()
     }
 
-    /// Weights of the vertices in the curvature along the side, without unit. A vertex may appear more than once.
+    /// Weights in the curvature along the side, without unit. A vertex may appear more than once.
     fn weights(&self) -> Vec<(usize, f64)> {
         let triangles = self.triangles();
         let regular = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 2.0)) * (HINGES / triangles.len() as f64);
@@ -221,8 +209,8 @@ impl Side<'_> {
         terms.into_iter().map(|(v, term)| (v, along.dot(&term))).collect()
     }
 
-    /// Vertices of the triangles around the ends of the side, except the corners of triangle `t`, in ascending order.
-    /// Each has its place when the cloth is unfolded into the plane of `t`.
+    /// Vertices of the triangles around the ends of the side, except the corners of triangle `t`, ascending, each with
+    /// its place when the cloth is unfolded into the plane of `t`.
     fn around(&self, t: usize, rest: [V2; 3]) -> Vec<(usize, V2)> {
         let ends = self.laid[self.t].ends(self.side);
         let mut placed = vec![(t, rest)];
@@ -251,15 +239,13 @@ impl Side<'_> {
     }
 }
 
-/// Offset of a point of a quadratic surface from the plane through three points of that surface.
+/// Offset of a point of a quadratic surface from the plane through three of its points.
 struct Departure {
     /// Offset for a unit of each component `k11, k22, k12` of the curvature tensor, over twice the area of the corners.
     row: Vector3<f64>,
-    /// Barycentric weights of the corners at the point.
     weights: [f64; 3],
 }
 
-/// Departure of the point `p` from the plane of three corners.
 fn departure(corners: [V2; 3], p: V2) -> Departure {
     let half = |p: V2| Vector3::new(0.5 * p.x * p.x, 0.5 * p.y * p.y, p.x * p.y);
     let twice = (corners[1] - corners[0]).perp(&(corners[2] - corners[0]));
@@ -297,7 +283,6 @@ mod tests {
     use crate::testing::{check_forces, fabric};
     use nalgebra::DMatrix;
 
-    /// Edge of the sheets, m.
     const EDGE: f64 = 0.015;
 
     fn sheet(place: impl Fn(&V2) -> V3) -> Specimen {

@@ -14,19 +14,17 @@ use linalg::PairList;
 use linalg::quad::{self, Block};
 use pattern::Garment;
 
-/// Segment of a band between two simulated vertices.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Link {
-    /// Ends of the segment; they share a triangle.
+    /// They share a triangle.
     pub vertices: [usize; 2],
-    /// Rest length `L'`, m.
     pub length_m: f64,
-    /// Stiffness `k`: force per relative elongation, N.
+    /// Force `k` per relative elongation.
     pub stiffness_n: f64,
 }
 
 impl Link {
-    /// Tension (N), and unit direction from the first end to the second.
+    /// Tension (N) and unit direction from the first end to the second.
     fn pull(&self, x: &[V3]) -> (f64, V3) {
         let d = x[self.vertices[1]] - x[self.vertices[0]];
         let length = d.norm();
@@ -34,7 +32,6 @@ impl Link {
     }
 }
 
-/// All bands of a garment.
 #[derive(Clone, Debug, Default)]
 pub struct Bands {
     links: Vec<Link>,
@@ -43,7 +40,6 @@ pub struct Bands {
 impl Bands {
     /// Collects the bands of a garment whose vertices are merged as `vertex_of` says. `gathers` gives the rest lengths
     /// of gathered edges.
-    #[must_use]
     pub fn new(garment: &Garment, gathers: &Gathers, vertex_of: &[usize]) -> Self {
         let mut links = Vec::new();
         for r in &garment.reinforcements {
@@ -60,22 +56,19 @@ impl Bands {
         Self { links }
     }
 
-    /// Bands of a part of the cloth: those with an end that may move.
-    #[must_use]
     pub fn part(&self, part: &Part) -> Self {
         let renamed = |link: &Link| Some(Link { vertices: part.names(link.vertices)?, ..*link });
         Self { links: self.links.iter().filter_map(renamed).collect() }
     }
 
-    /// Elastic energy of the bands at `x`, J.
-    #[must_use]
+    /// J.
     pub fn energy(&self, x: &[V3]) -> f64 {
         let energy_j =
             |link: &Link| 0.5 * link.pull(x).0.powi(2) / link.stiffness_n.max(f64::MIN_POSITIVE) * link.length_m;
         self.links.iter().map(energy_j).sum()
     }
 
-    /// Adds the forces of the bands at `x`, N.
+    /// N.
     pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
         for link in &self.links {
             let (tension, direction) = link.pull(x);
@@ -84,10 +77,9 @@ impl Bands {
         }
     }
 
-    /// Assembles the second-order correction of a step from `x` to `end`, as
-    /// [`Membrane::assemble_towards`](super::membrane::Membrane::assemble_towards) does. It adds the forces (N) of the
-    /// tensions at `end` in excess of those that a linear solve at `x` predicts there. To the stiffness blocks of the
-    /// membrane it adds the axial stiffness; the ends of each link are among its pairs.
+    /// As [`Membrane::assemble_towards`](super::membrane::Membrane::assemble_towards): adds the forces (N) of the
+    /// tensions at `end` in excess of those that a linear solve at `x` predicts, and to the blocks of the membrane the
+    /// axial stiffness. The ends of each link are among its pairs.
     pub fn assemble_towards(
         &self,
         x: &[V3],
@@ -109,8 +101,7 @@ impl Bands {
         }
     }
 
-    /// Adds the off-diagonal stiffness (N/m) to the blocks of the membrane, among whose pairs are the ends of each
-    /// link.
+    /// Adds off-diagonal stiffness (N/m) to the blocks of the membrane, among whose pairs are the ends of each link.
     pub fn add_stiffness(&self, x: &[V3], pairs: &PairList, blocks: &mut [Block<f32x4>]) {
         for link in &self.links {
             let [i, j] = link.vertices;
@@ -134,7 +125,6 @@ mod tests {
     use crate::testing::{check_forces, fabric};
     use pattern::garment::{Band, Reinforcement};
 
-    /// A sheet of 3 x 3 squares whose lower edge carries a rib of nine tenths of its length.
     fn ribbed() -> (Garment, Vec<V3>) {
         let mut garment = laboratory::garment(sheets::sheet(3, 3, 0.02));
         let rib = Reinforcement { band: Band::Rib, stiffness_n: 25.0, length_factor: 0.9, vertices: vec![0, 1, 2, 3] };

@@ -25,7 +25,7 @@ use linalg::PairList;
 use linalg::quad::{self, Block};
 use linalg::rows::sorted_by_row;
 
-/// An interior edge with its two triangles.
+/// Interior edge with its two triangles.
 #[derive(Clone, Copy, Debug)]
 pub struct Hinge {
     /// Ends of the edge, then the opposite vertex of each triangle.
@@ -34,10 +34,9 @@ pub struct Hinge {
     pub coefficients: [f64; 4],
 }
 
-/// A rest triangle at a hinge: the edge first, then the opposite corner.
 #[derive(Clone, Copy, Debug)]
 pub struct Flap {
-    /// Rest corners: edge start, edge end, opposite.
+    /// Edge start, edge end, opposite corner.
     pub rest: [V2; 3],
 }
 
@@ -49,7 +48,7 @@ impl Flap {
         0.5 * (a - c).perp(&(b - c)).abs()
     }
 
-    /// Cotangents of the interior angles at the edge's start and end.
+    /// Those of the interior angles at the edge's start and end.
     fn cotangents(&self) -> [f64; 2] {
         let [a, b, c] = self.rest;
         let cot = |end: V2, other: V2| (other - end).dot(&(c - end)) / (other - end).perp(&(c - end)).abs();
@@ -58,8 +57,6 @@ impl Flap {
 }
 
 impl Hinge {
-    /// Makes a hinge between two flaps that share the edge `vertices[0] vertices[1]`.
-    #[must_use]
     pub fn new(vertices: [usize; 4], flaps: [Flap; 2]) -> Self {
         let [[c01, c03], [c02, c04]] = flaps.map(|f| f.cotangents());
         let areas = flaps[0].area() + flaps[1].area();
@@ -67,22 +64,21 @@ impl Hinge {
     }
 }
 
-/// A triangle of the plate.
 #[derive(Clone, Copy, Debug)]
 pub struct Plate {
     /// Rest area, m2.
     pub area: f64,
-    /// Bending rigidities along weft and warp, N m.
+    /// Along weft and warp.
     pub rigidities_nm: [f64; 2],
     /// Unit normals of the sides in (weft, warp).
     pub normals: [V2; 3],
-    /// Index of the hinge on each side; `None` at a free edge.
+    /// Hinge on each side; `None` at a free edge.
     pub hinges: [Option<usize>; 3],
 }
 
 impl Plate {
-    /// Quadratic form `G` of the curvatures `k` across the sides, N m: the energy per area is `k^T G k / 2`. The
-    /// curvature across a free edge is eliminated at its value of least energy (a Schur complement).
+    /// Quadratic form `G` of the curvatures `k` across the sides, N m: the energy per area is `k^T G k / 2`. Curvature
+    /// across a free edge is eliminated at its value of least energy (Schur complement).
     fn form(&self) -> [[f64; 3]; 3] {
         let [weft, warp] = self.rigidities_nm.map(f64::sqrt);
         let n = &self.normals;
@@ -108,9 +104,8 @@ impl Plate {
         form
     }
 
-    /// Contribution of the curvature across each side, in this order, to the curvature tensor `k11, k22, k12` of the
-    /// triangle. The curvatures across free sides are those that minimise the norm of the tensor.
-    #[must_use]
+    /// Contribution of the curvature across each side, in this order, to the curvature tensor `k11, k22, k12`.
+    /// Curvatures across free sides minimise the norm of the tensor.
     pub fn curvature_tensor(&self, order: [usize; 3]) -> [Vector3<f64>; 3] {
         let n = order.map(|side| self.normals[side]);
         let known = Matrix3::from_fn(|e, f| match self.hinges[order[e]] {
@@ -123,8 +118,8 @@ impl Plate {
         [0, 1, 2].map(|e| tensors.column(e).into_owned())
     }
 
-    /// Appends the entries of the stiffness above its diagonal, for each pair of corners of the hinges. Corners that
-    /// are sewn into one vertex couple it to itself, which adds nothing.
+    /// Appends the stiffness above its diagonal for each pair of corners. Corners sewn into one vertex couple it to
+    /// itself, which adds nothing.
     fn push_terms(&self, hinges: &[Hinge], terms: &mut Vec<([usize; 2], f64)>) {
         let form = self.form();
         let own = self.hinges.map(|hinge| hinge.map(|h| &hinges[h]));
@@ -156,15 +151,14 @@ impl Plate {
     }
 }
 
-/// Stiffness of independent hinges, N/m, the same in x, y and z. It is scaled so that it is as stiff as the plate
-/// against being rolled up.
+/// Stiffness of independent hinges, N/m, the same in x, y and z, scaled to be as stiff as the plate against being
+/// rolled up.
 #[derive(Clone, Debug)]
 pub struct Tangent {
-    /// Off-diagonal entries for the sides of the triangles, in the order of the pairs of the membrane.
+    /// Off-diagonal entries for the triangle sides, in the order of the membrane's pairs.
     pub along: Vec<f64>,
-    /// Pairs of vertices that face each other across a side.
+    /// Vertices that face each other across a side.
     pub pairs: PairList,
-    /// Off-diagonal entries of those pairs.
     pub across: Vec<f64>,
 }
 
@@ -175,7 +169,6 @@ geom::constants! {
 }
 
 impl Tangent {
-    /// Adds the entries along sides to the stiffness blocks of the membrane.
     pub fn add_along(&self, blocks: &mut [Block<f32x4>]) {
         for (block, entry) in blocks.iter_mut().zip(&self.along) {
             for (row, alike) in block.iter_mut().zip(quad::alike(*entry as f32)) {
@@ -217,19 +210,16 @@ impl Tangent {
     }
 }
 
-/// Bending of a garment.
 #[derive(Clone, Debug)]
 pub struct Bending {
-    /// Pairs of vertices that bending couples.
     pub pairs: PairList,
-    /// Off-diagonal entries of the stiffness for those pairs, N/m, the same in x, y and z.
+    /// Off-diagonal stiffness, N/m, the same in x, y and z.
     pub entries: Vec<f64>,
     /// Approximate stiffness for linear solves.
     pub tangent: Tangent,
 }
 
-/// Distinct pairs with the sums of their terms. The terms of a pair are added in the order of their values, so that a
-/// mirrored garment is rounded alike.
+/// Adds the terms of a pair in the order of their values, so that a mirrored garment is rounded alike.
 fn summed(terms: &[([usize; 2], f64)]) -> (PairList, Vec<f64>) {
     let rows = terms.iter().map(|([i, _], _)| i + 1).max().unwrap_or(0);
     let (starts, mut sorted) = sorted_by_row(rows, terms, |([i, _], _)| *i, |([_, j], value)| (*j, *value));
@@ -251,8 +241,6 @@ fn summed(terms: &[([usize; 2], f64)]) -> (PairList, Vec<f64>) {
 }
 
 impl Bending {
-    /// Assembles the stiffness of some triangles with the sides `sides`.
-    #[must_use]
     pub fn new(hinges: &[Hinge], plates: &[Plate], sides: &PairList) -> Self {
         let mut terms = Vec::with_capacity(15 * plates.len());
         for plate in plates {
@@ -262,18 +250,17 @@ impl Bending {
         Self { pairs, entries, tangent: Tangent::new(hinges, plates, sides) }
     }
 
-    /// Bending energy, J.
-    #[must_use]
+    /// J.
     pub fn energy(&self, x: &[V3]) -> f64 {
         self.gather(x, |_, _, _| {})
     }
 
-    /// Adds the bending forces, N.
+    /// N.
     pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
         self.assemble(x, forces);
     }
 
-    /// Adds the bending forces, N, and returns the energy, J.
+    /// Adds the forces, N. Returns the energy, J.
     pub fn assemble(&self, x: &[V3], forces: &mut [V3]) -> f64 {
         self.gather(x, |i, j, pull| {
             forces[i] -= pull;
@@ -281,8 +268,8 @@ impl Bending {
         })
     }
 
-    /// Computes the energy, J, and hands the force (N) between each pair to `each`. The rows of the stiffness `Q` sum
-    /// to zero, so `x^T Q x` is the negative sum over pairs of `Q_ij |x_i - x_j|^2`.
+    /// Returns the energy, J, and hands the force (N) between each pair to `each`. The rows of the stiffness `Q` sum to
+    /// zero, so `x^T Q x` is the negative sum over pairs of `Q_ij |x_i - x_j|^2`.
     #[inline(always)]
     fn gather(&self, x: &[V3], mut each: impl FnMut(usize, usize, V3)) -> f64 {
         let mut energy = 0.0;

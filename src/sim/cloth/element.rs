@@ -5,24 +5,20 @@ use nalgebra::{Matrix2, Matrix3x2};
 use super::law::Tensor;
 use geom::{V2, V3};
 
-/// A constant-strain triangle of the membrane.
+/// Constant-strain triangle of the membrane.
 #[derive(Clone, Copy, Debug)]
 pub struct Element {
-    /// Simulated vertices, counter-clockwise.
+    /// Simulated, counter-clockwise.
     vertices: [u32; 3],
-    /// Index of its material law.
     pub(super) law: u32,
     /// Rest area, m2.
     pub area: f64,
-    /// Gradients of the second and third shape functions in (weft, warp), 1/m. The gradient of the first is the
-    /// negative of their sum.
+    /// Gradients of the second and third shape functions in (weft, warp), 1/m. That of the first is their negative sum.
     gradients: [V2; 2],
 }
 
 impl Element {
-    /// Makes a triangle with rest corners `rest`; `grain` is the unit warp direction. `None` where the triangle has no
-    /// area.
-    #[must_use]
+    /// `grain` is the unit warp direction. `None` where the triangle has no area.
     pub fn new(vertices: [usize; 3], rest: [V2; 3], grain: V2) -> Option<Self> {
         let weft = V2::new(grain.y, -grain.x);
         let local = rest.map(|p| V2::new(p.dot(&weft), p.dot(&grain)));
@@ -33,25 +29,19 @@ impl Element {
         Some(Self { vertices: vertices.map(|v| v as u32), law: 0, area, gradients })
     }
 
-    /// Returns the same triangle with the material law of an index. A new triangle has law 0.
-    #[must_use]
+    /// Returns the triangle with another law. A new triangle has law 0.
     pub fn of_law(self, number: usize) -> Self {
         Self { law: number as u32, ..self }
     }
 
-    /// Returns the same triangle with other vertex indices.
-    #[must_use]
     pub fn renamed(&self, vertices: [usize; 3]) -> Self {
         Self { vertices: vertices.map(|v| v as u32), ..*self }
     }
 
-    /// Simulated vertices, counter-clockwise.
-    #[must_use]
     pub fn vertices(&self) -> [usize; 3] {
         self.vertices.map(|v| v as usize)
     }
 
-    /// Images of the unit vectors of weft and warp, which are the columns of the deformation gradient.
     #[inline]
     fn fibres(&self, x: &[V3]) -> [V3; 2] {
         let [a, b, c] = self.vertices().map(|v| x[v]);
@@ -60,31 +50,25 @@ impl Element {
         [p * g.x + q * h.x, p * g.y + q * h.y]
     }
 
-    /// Deformation gradient `F`, 3 x 2, its columns along weft and warp.
-    #[must_use]
+    /// `F`, its columns along weft and warp.
     pub fn deformation_gradient(&self, x: &[V3]) -> Matrix3x2<f64> {
         Matrix3x2::from_columns(&self.fibres(x))
     }
 
-    /// Gradients of the second and third shape functions in (weft, warp), 1/m.
-    #[must_use]
     pub fn gradients(&self) -> [V2; 2] {
         self.gradients
     }
 }
 
-/// Stress of an element and its first-order change along a displacement, N/m.
+/// Stress of an element and its change along a displacement, N/m.
 #[derive(Clone, Copy, Debug)]
 pub struct Foreseen {
-    /// Stress before the displacement.
     pub stress: Tensor,
-    /// Change along the displacement, to first order.
+    /// First order.
     pub change: Tensor,
 }
 
 impl Foreseen {
-    /// Predicted stress after a share of the displacement.
-    #[must_use]
     pub fn after(&self, share: f64) -> Tensor {
         self.stress + self.change * share
     }

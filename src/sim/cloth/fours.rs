@@ -9,27 +9,23 @@ use linalg::lanes::{Lanes, Number};
 use linalg::quad::{self, Block, Quad};
 use linalg::simd::{Kernel, Simd, each};
 
-/// Four vectors, one in each lane.
 type Vectors<S> = [Lanes<S>; 3];
 
 /// Four triangles of the membrane. The last group is filled up with triangles of no area, on vertex 0 and pair 0.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Four {
-    /// Vertices at each corner.
     vertices: [[u32; 4]; 3],
     /// For the sides (0,1), (1,2), (2,0) twice the index of the pair, plus 1 where the second corner has the smaller
     /// vertex.
     slots: [[u32; 4]; 3],
     areas: [f64; 4],
-    /// Gradients of the second and third shape functions in weft and warp, 1/m. The gradient of the first is the
-    /// negative of their sum.
+    /// Gradients of the second and third shape functions in weft and warp, 1/m. That of the first is their negative
+    /// sum.
     gradients: [[[f64; 4]; 2]; 2],
-    /// Index of their packed laws.
     laws: u32,
 }
 
 impl Four {
-    /// Packs up to four triangles, each with its `slots`. `laws` is the index of their packed laws.
     pub fn new(elements: &[(Element, [u32; 3])], laws: usize) -> Self {
         let mut four = Self { laws: laws as u32, ..Self::default() };
         for (lane, (element, slots)) in elements.iter().enumerate() {
@@ -45,7 +41,6 @@ impl Four {
         four
     }
 
-    /// Images of the unit vectors of weft and warp: the columns of the deformation gradient.
     #[inline(always)]
     fn fibres<S: Simd>(&self, simd: S, x: &[V3]) -> [Vectors<S>; 2] {
         let [a, b, c] = each!(corner of 3 => {
@@ -64,7 +59,6 @@ impl Four {
         each!(corner of 2 => each!(axis of 2 => Lanes::of(simd, self.gradients[corner][axis])))
     }
 
-    /// Law of each lane.
     #[inline(always)]
     fn law<S: Simd>(&self, simd: S, laws: &[Orthotropic<[f64; 4]>]) -> Orthotropic<Lanes<S>> {
         let Orthotropic { weft, c12, warp, shear } = &laws[self.laws as usize];
@@ -81,7 +75,7 @@ impl Four {
         Lanes::of(simd, self.areas)
     }
 
-    /// Gradients of all three shape functions in weft and warp, 1/m.
+    /// Gradients of the shape functions in weft and warp, 1/m.
     #[inline(always)]
     fn all_gradients<S: Simd>(&self, simd: S) -> [[Lanes<S>; 2]; 3] {
         let [g, h] = self.lanes_of_gradients(simd);
@@ -105,7 +99,6 @@ impl Four {
         })
     }
 
-    /// Values of the three sides of each triangle.
     #[inline(always)]
     fn sides<S: Simd>(&self, simd: S, values: &[f64]) -> [Lanes<S>; 3] {
         each!(k of 3 => Lanes::of(simd, each!(lane of 4 => values[(self.slots[k][lane] >> 1) as usize])))
@@ -119,7 +112,7 @@ impl Four {
         (shapes[0] * (half * sides[0]) + shapes[2] * (half * sides[2])) + shapes[1] * (half * sides[1])
     }
 
-    /// Adds the tension that is conjugate to half of each squared side, `A S : dE`, N/m.
+    /// Adds the tensions conjugate to half of each squared side, `A S : dE`, N/m.
     #[inline(always)]
     fn add_tensions<S: Simd>(&self, simd: S, stress: Tensor<Lanes<S>>, tensions: &mut [f64]) {
         let (shapes, area) = (self.side_strains(simd), self.lanes_of_areas(simd));
@@ -131,8 +124,8 @@ impl Four {
         }
     }
 
-    /// Appends the second derivatives of the energy by half of the squared sides, N/m3: of each side with itself, then
-    /// of (0, 1), (1, 2), (2, 0).
+    /// Second derivatives of the energy by half of the squared sides, N/m3: of each side with itself, then of (0, 1),
+    /// (1, 2), (2, 0).
     #[inline(always)]
     fn push_couplings<S: Simd>(
         &self,
@@ -155,7 +148,7 @@ impl Four {
         }
     }
 
-    /// Adds the nodal forces `-A F S g_i` of a stress, N.
+    /// Adds the nodal forces `-A F S g_i`, N.
     #[inline(always)]
     fn add_forces<S: Simd>(
         &self,
@@ -186,9 +179,9 @@ impl Four {
         }
     }
 
-    /// Adds the off-diagonal stiffness blocks `K_ij = sum f_a (m_ab f_b)^T` of a law with the tangent moduli `slopes`,
-    /// where `f` are the columns of the deformation gradient. `tension` is the stress of the geometric part, without
-    /// compression; without it there is no geometric part.
+    /// Adds the off-diagonal blocks `K_ij = sum f_a (m_ab f_b)^T` of a law with the tangent moduli `slopes`, where `f`
+    /// are the columns of the deformation gradient. `tension` is the stress of the geometric part, without compression;
+    /// without it there is no geometric part.
     #[inline(always)]
     fn add_stiffness<S: Simd>(
         &self,
@@ -245,7 +238,7 @@ impl Four {
     }
 }
 
-/// Green strain `(F^T F - I) / 2` of the columns of the deformation gradient.
+/// `(F^T F - I) / 2` of the columns of the deformation gradient.
 #[inline(always)]
 fn green<N: Number>([weft, warp]: &[[N; 3]; 2]) -> Tensor<N> {
     let half = weft[0].splat(0.5);
@@ -270,7 +263,6 @@ fn lanes_of_fibre<S: Simd>(simd: S, fibre: &Fibre<[f64; 4]>) -> Fibre<Lanes<S>> 
     Fibre { rest: Lanes::of(simd, fibre.rest), rise: Lanes::of(simd, fibre.rise), until: Lanes::of(simd, fibre.until) }
 }
 
-/// Packs the tensors of up to four triangles into lanes; the rest is zero.
 #[inline(always)]
 fn lanes_of<S: Simd>(simd: S, tensors: &[Tensor]) -> Tensor<Lanes<S>> {
     let nothing = Tensor::default();
@@ -285,7 +277,6 @@ fn lanes_of<S: Simd>(simd: S, tensors: &[Tensor]) -> Tensor<Lanes<S>> {
     }
 }
 
-/// Unpacks the tensors of the lanes.
 #[inline(always)]
 fn apart<S: Simd>(tensor: Tensor<Lanes<S>>) -> [Tensor; 4] {
     let (weft, warp, shear) = (tensor.weft.numbers(), tensor.warp.numbers(), tensor.shear.numbers());
@@ -296,23 +287,21 @@ fn apart<S: Simd>(tensor: Tensor<Lanes<S>>) -> [Tensor; 4] {
 pub struct Assembly<'a> {
     /// Packed laws; the groups refer to them by index.
     pub laws: &'a [Orthotropic<[f64; 4]>],
-    /// Triangles of the membrane, in groups of four.
     pub fours: &'a [Four],
-    /// Positions of the vertices, m.
     pub x: &'a [V3],
     /// Squared arcs less squared chords of the sides, m2; empty where sides are chords.
     pub excess: &'a [f64],
-    /// Receives the forces, N.
+    /// N.
     pub forces: Option<&'a mut [V3]>,
-    /// Receives the tensions that are conjugate to half of each squared side, N/m.
+    /// Conjugate to half of each squared side, N/m.
     pub tensions: Option<&'a mut [f64]>,
-    /// Receives the same of the stresses in the geometric part, N/m.
+    /// As `tensions`, of the stresses in the geometric part.
     pub pulls: Option<&'a mut [f64]>,
-    /// Receives the off-diagonal stiffness blocks, N/m.
+    /// Off-diagonal stiffness, N/m.
     pub blocks: Option<&'a mut [Block<f32x4>]>,
-    /// Receives the second derivatives by half of the squared sides, N/m3.
+    /// Second derivatives by half of the squared sides, N/m3.
     pub couplings: Option<&'a mut Vec<[f32; 6]>>,
-    /// Stresses of the geometric part of the blocks, one for each triangle, N/m; without them the stresses at `x`.
+    /// Stress of each triangle in the geometric part of the blocks, N/m; without it that at `x`.
     pub predicted: Option<&'a [Tensor]>,
 }
 
@@ -366,15 +355,13 @@ impl Kernel for Assembly<'_> {
 
 /// Kernel of the first-order forces (N) of the compressive part of stresses along a displacement.
 pub struct Compression<'a> {
-    /// Triangles of the membrane, in groups of four.
     pub fours: &'a [Four],
-    /// Stresses of the triangles, N/m.
+    /// N/m.
     pub stresses: &'a [Tensor],
-    /// Displacement, m.
     pub d: &'a [V3],
     /// Share of the compressive forces that is added, 0 to 1.
     pub share: f64,
-    /// Receives the forces, N.
+    /// N.
     pub forces: &'a mut [V3],
 }
 
@@ -392,29 +379,25 @@ impl Kernel for Compression<'_> {
     }
 }
 
-/// Kernel of the second-order correction of a displacement `d` from `x`. It gives the forces (N) of the stresses at the
-/// end in excess of the predicted ones, the predicted stresses, and the material stiffness at the end.
+/// Kernel of the second-order correction of a displacement from `x`: forces (N) of the stresses at the end in excess of
+/// the predicted ones, the predicted stresses, and the material stiffness at the end.
 pub struct Correction<'a> {
-    /// Packed laws; the groups refer to them by index.
     pub laws: &'a [Orthotropic<[f64; 4]>],
-    /// Triangles of the membrane, in groups of four.
     pub fours: &'a [Four],
-    /// Positions before the displacement, m.
     pub x: &'a [V3],
-    /// Displacement, m.
     pub d: &'a [V3],
-    /// Squared arcs less squared chords of the sides, m2: before the displacement, their first-order change, and at its
-    /// end. Empty where sides are chords.
+    /// Squared arcs less squared chords, m2: before the displacement, their first-order change, and at its end. Empty
+    /// where sides are chords.
     pub excess: [&'a [f64]; 3],
-    /// Receives the forces, N.
+    /// N.
     pub forces: &'a mut [V3],
-    /// Receives the tensions that are conjugate to half of each squared side, N/m.
+    /// Conjugate to half of each squared side, N/m.
     pub tensions: &'a mut [f64],
-    /// Receives the off-diagonal stiffness blocks, N/m.
+    /// Off-diagonal stiffness, N/m.
     pub blocks: &'a mut [Block<f32x4>],
-    /// Receives the second derivatives by half of the squared sides, N/m3.
+    /// Second derivatives by half of the squared sides, N/m3.
     pub couplings: &'a mut Vec<[f32; 6]>,
-    /// Receives the predicted stresses, one for each triangle and some more where a group is not full.
+    /// Receives the predicted stress of each triangle, and some more where a group is not full.
     pub foreseen: &'a mut Vec<Foreseen>,
 }
 

@@ -27,7 +27,6 @@ geom::constants! {
     const LEAST_AREA: f64 = 0.3;
 }
 
-/// Shortening of the cloth at a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Drawn {
     /// Ratio of the length along the seam to that in the pattern.
@@ -37,21 +36,19 @@ struct Drawn {
 }
 
 impl Drawn {
-    /// Shortens the component along the seam of a vector of the pattern to a share.
     fn apply(&self, share: f64, drawn: V2) -> V2 {
         drawn + self.along * ((share - 1.0) * drawn.dot(&self.along))
     }
 }
 
-/// Shortening of the cloth by gathered seams, at the garment vertices that it concerns.
+/// Shortening of the cloth by gathered seams, at the vertices that it concerns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Gathers {
     drawn: BTreeMap<usize, Drawn>,
 }
 
 impl Gathers {
-    /// Finds the gathered seams of a garment. A vertex in several of them takes the one with the greatest shortening.
-    #[must_use]
+    /// A vertex in several gathered seams takes the greatest shortening.
     pub fn of(garment: &Garment) -> Self {
         let mut drawn = BTreeMap::new();
         let edges = sewn_edges(garment);
@@ -76,21 +73,18 @@ impl Gathers {
         Self { drawn: spread(garment, drawn) }
     }
 
-    /// Rest length (m) of a side of a triangle, which is the vector `drawn` in the pattern.
-    #[must_use]
+    /// Rest length of a side that is the vector `drawn` in the pattern.
     pub fn length_m(&self, edge: [usize; 2], drawn: V2) -> f64 {
         let ends = sorted(edge).map(|v| self.drawn.get(&v));
         let share = ends.iter().map(|end| end.map_or(1.0, |d| d.share)).sum::<f64>() / 2.0;
         ends.into_iter().flatten().next().map_or(drawn, |d| d.apply(share, drawn)).norm()
     }
 
-    /// Rest shape of a triangle of garment vertices, which is `rest` in the pattern. It is unchanged where nothing is
-    /// gathered.
+    /// Rest shape of a triangle of garment vertices, which is `rest` in the pattern.
     ///
-    /// Triangles that share a side agree on its length. The exception is a triangle that would become too thin: it is
-    /// shortened uniformly. Corners are taken in the order of their indices, so that a mirrored garment has the
-    /// mirrored shapes to the bit.
-    #[must_use]
+    /// Triangles that share a side agree on its length, except for one that would become too thin: it is shortened
+    /// uniformly. Corners are taken in the order of their indices, so that a mirrored garment has the mirrored shapes
+    /// to the bit.
     pub fn shape(&self, corners: [usize; 3], rest: [V2; 3]) -> [V2; 3] {
         let mut order = [0, 1, 2];
         order.sort_unstable_by_key(|&k| corners[k]);
@@ -112,8 +106,8 @@ impl Gathers {
     }
 }
 
-/// Constructs a triangle from its sides, m. First corner, direction of the first side and orientation are those of the
-/// triangle `like`. The triangle is degenerate where the sides violate the triangle inequality.
+/// Constructs a triangle from its sides, m. First corner, direction of the first side and orientation are those of
+/// `like`. Degenerate where the sides violate the triangle inequality.
 fn with_sides(like: [V2; 3], [base, right, left]: [f64; 3]) -> [V2; 3] {
     let first = like[1] - like[0];
     let along = first.normalize();
@@ -122,7 +116,6 @@ fn with_sides(like: [V2; 3], [base, right, left]: [f64; 3]) -> [V2; 3] {
     [like[0], like[0] + along * base, like[0] + along * foot + V2::new(-along.y, along.x) * height]
 }
 
-/// Continues the shortening from the seams into the cloth, row by row, until it has faded out.
 fn spread(garment: &Garment, mut drawn: BTreeMap<usize, Drawn>) -> BTreeMap<usize, Drawn> {
     let mut last = drawn.clone();
     for row in 1..ROWS {
@@ -144,7 +137,6 @@ fn spread(garment: &Garment, mut drawn: BTreeMap<usize, Drawn>) -> BTreeMap<usiz
     drawn
 }
 
-/// Sides of triangles whose two ends are sewn.
 fn sewn_edges(garment: &Garment) -> BTreeSet<[usize; 2]> {
     let mut is_sewn = vec![false; garment.rest.len()];
     garment.seams.iter().flat_map(|seam| &seam.pairs).flatten().for_each(|&v| is_sewn[v] = true);
@@ -169,8 +161,8 @@ mod tests {
     use linalg::LinearSolver;
     use pattern::{PieceMesh, Role, SeamMesh};
 
-    /// A band 0.3 m long over a skirt whose upper edge is `ratio` times as long; then the lower vertices of the band
-    /// and the upper vertices of the skirt.
+    /// Band 0.3 m long over a skirt whose upper edge is `ratio` times as long; then the lower vertices of the band and
+    /// the upper ones of the skirt.
     fn skirt(ratio: f64, step: f64) -> (Garment, [Vec<usize>; 2]) {
         let columns = (0.3 / step).round() as usize;
         let mut garment = laboratory::garment(sheets::hexagonal_sheet(columns, 4, step));

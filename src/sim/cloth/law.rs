@@ -8,34 +8,27 @@ use nalgebra::Matrix2;
 use crate::Fabric;
 use linalg::lanes::Number;
 
-/// A symmetric 2 x 2 tensor in the plane of the cloth, in the axes of the grain.
+/// Symmetric tensor in the plane of the cloth, in the axes of the grain.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tensor<N = f64> {
-    /// Diagonal entry along the weft.
     pub weft: N,
-    /// Diagonal entry along the warp.
     pub warp: N,
-    /// Entry off the diagonal.
     pub shear: N,
 }
 
 impl Tensor {
-    /// Tensor of a symmetric matrix, weft first.
-    #[must_use]
     pub fn of(matrix: &Matrix2<f64>) -> Self {
         Self { weft: matrix[(0, 0)], warp: matrix[(1, 1)], shear: matrix[(0, 1)] }
     }
 
-    /// Matrix of the tensor, weft first.
-    #[must_use]
+    /// Weft first.
     pub fn matrix(self) -> Matrix2<f64> {
         Matrix2::new(self.weft, self.shear, self.shear, self.warp)
     }
 }
 
 impl<N: Number> Tensor<N> {
-    /// Positive semidefinite part: negative eigenvalues are set to zero.
-    #[must_use]
+    /// Sets negative eigenvalues to zero.
     #[inline(always)]
     pub fn without_compression(self) -> Self {
         let (zero, half) = (self.weft.splat(0.0), self.weft.splat(0.5));
@@ -81,12 +74,12 @@ geom::constants! {
 }
 
 /// Law of one direction of the grain: `sigma(E) = K E + R (w^2 + 2 w b)`, N/m, of the Green strain `E`. `w` is the
-/// tensile strain up to `E*`, and `b` the tensile strain beyond `E*`.
+/// tensile strain up to `E*`, and `b` that beyond `E*`.
 ///
-/// Knits stiffen as their loops straighten. In tension the secant modulus `sigma / E` rises linearly from its value `K`
-/// at rest, through the one measured at a known stretch, as the measurements were interpolated [Wang, O'Brien,
-/// Ramamoorthi 2011]. Beyond `E*` the stress continues along its tangent. Compression keeps the modulus `K`. The stress
-/// is the derivative of an energy and is continuously differentiable once. Its slope never falls below `K`.
+/// Knits stiffen as their loops straighten. In tension the secant modulus `sigma / E` rises linearly from `K` at rest,
+/// through the one measured at a known stretch, as the measurements were interpolated [Wang, O'Brien, Ramamoorthi
+/// 2011]. Beyond `E*` the stress continues along its tangent. Compression keeps `K`. The stress is the derivative of an
+/// energy and continuously differentiable once; its slope never falls below `K`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fibre<N = f64> {
     /// Modulus `K` at rest, N/m.
@@ -98,15 +91,13 @@ pub struct Fibre<N = f64> {
 }
 
 impl Fibre {
-    /// Linear law with one modulus, N/m.
-    #[must_use]
+    /// N/m.
     pub fn linear(modulus: f64) -> Self {
         Self { rest: modulus, rise: 0.0, until: f64::INFINITY }
     }
 
-    /// Law with the secant modulus `rest` at rest and `stretched` at the stretch ratio `1 + stretch`. `E* = s (1 + s /
-    /// 2)` is the Green strain of a stretch `s`.
-    #[must_use]
+    /// Secant modulus `rest` at rest and `stretched` at the stretch ratio `1 + stretch`. `E* = s (1 + s / 2)` is the
+    /// Green strain of a stretch `s`.
     pub fn stiffening(rest: f64, stretched: f64, stretch: f64) -> Self {
         let until = stretch * (1.0 + 0.5 * stretch);
         Self { rest, rise: (stretched - rest).max(0.0) / until, until }
@@ -114,7 +105,6 @@ impl Fibre {
 
     /// Returns the law with a share of its modulus at rest. Its slope regains the original value at `E*`, or at `SLACK`
     /// for a linear law. So the cloth is a little longer under tension, and then as stiff as before.
-    #[must_use]
     pub fn slackened(self, share: f64) -> Self {
         let until = if self.until.is_finite() { self.until } else { SLACK };
         Self { rest: share * self.rest, rise: self.rise + 0.5 * (1.0 - share) * self.rest / until, until }
@@ -122,8 +112,7 @@ impl Fibre {
 }
 
 impl<N: Number> Fibre<N> {
-    /// Stress `sigma(E)`, N/m.
-    #[must_use]
+    /// `sigma(E)`, N/m.
     #[inline(always)]
     pub fn stress(&self, strain: N) -> N {
         let (within, beyond) = self.parts(strain);
@@ -131,15 +120,13 @@ impl<N: Number> Fibre<N> {
         strain.mul_add(self.rest, rising * self.rise)
     }
 
-    /// Tangent modulus `d sigma / d E`, N/m.
-    #[must_use]
+    /// `d sigma / d E`, N/m.
     #[inline(always)]
     pub fn tangent(&self, strain: N) -> N {
         self.parts(strain).0.mul_add(strain.splat(2.0) * self.rise, self.rest)
     }
 
-    /// Strain energy per area, the integral of `sigma`, N/m: `K E^2 / 2 + R (w^3 / 3 + w b (w + b))`.
-    #[must_use]
+    /// Integral of `sigma` per area, N/m: `K E^2 / 2 + R (w^3 / 3 + w b (w + b))`.
     #[inline(always)]
     pub fn energy(&self, strain: N) -> N {
         let (within, beyond) = self.parts(strain);
@@ -147,7 +134,7 @@ impl<N: Number> Fibre<N> {
         (strain * strain).mul_add(strain.splat(0.5) * self.rest, rising * self.rise)
     }
 
-    /// Tensile strain up to `E*`, and the rest beyond.
+    /// Tensile strain up to `E*`, and that beyond.
     #[inline(always)]
     fn parts(&self, strain: N) -> (N, N) {
         let stretch = strain.max(strain.splat(0.0));
@@ -160,26 +147,24 @@ impl<N: Number> Fibre<N> {
 /// `S22 = sigma_2(E22) + c12 E11`, `S12 = 2 G E12`, N/m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Orthotropic<N = f64> {
-    /// Law `sigma_1` along the weft.
+    /// `sigma_1`.
     pub weft: Fibre<N>,
-    /// Coupling modulus `c12`, N/m.
+    /// Coupling modulus, N/m.
     pub c12: N,
-    /// Law `sigma_2` along the warp.
+    /// `sigma_2`.
     pub warp: Fibre<N>,
-    /// Shear modulus `G`, N/m.
+    /// Modulus `G`, N/m.
     pub shear: N,
 }
 
 impl Fabric {
-    /// Law along the grain line (warp).
-    #[must_use]
+    /// Along the grain line.
     pub fn warp_law(&self) -> Fibre {
         let rest = self.membrane_warp_n_m;
         self.stretched.map_or(Fibre::linear(rest), |s| Fibre::stiffening(rest, s.membrane_warp_n_m, s.stretch))
     }
 
-    /// Law across the grain line (weft).
-    #[must_use]
+    /// Across the grain line.
     pub fn weft_law(&self) -> Fibre {
         let rest = self.membrane_weft_n_m;
         self.stretched.map_or(Fibre::linear(rest), |s| Fibre::stiffening(rest, s.membrane_weft_n_m, s.stretch))
@@ -187,8 +172,6 @@ impl Fabric {
 }
 
 impl Orthotropic {
-    /// Membrane law of a fabric.
-    #[must_use]
     pub fn of(fabric: &Fabric) -> Self {
         Self {
             weft: fabric.weft_law(),
@@ -198,9 +181,7 @@ impl Orthotropic {
         }
     }
 
-    /// Returns the law with a share of its stiffness at rest. Along the grain it regains its stiffness under tension
-    /// ([`Fibre::slackened`]).
-    #[must_use]
+    /// Takes a share of the stiffness at rest. Along the grain it is regained under tension ([`Fibre::slackened`]).
     pub fn slackened(self, share: f64) -> Self {
         Self {
             weft: self.weft.slackened(share),
@@ -210,8 +191,6 @@ impl Orthotropic {
         }
     }
 
-    /// Packs four laws into the lanes of one.
-    #[must_use]
     pub fn packed(laws: [&Self; 4]) -> Orthotropic<[f64; 4]> {
         let fibre = |direction: fn(&Self) -> &Fibre| Fibre {
             rest: laws.map(|law| direction(law).rest),
@@ -229,7 +208,6 @@ impl Orthotropic {
 
 impl<N: Number> Orthotropic<N> {
     /// Second Piola-Kirchhoff stress `S(E)`, N/m.
-    #[must_use]
     #[inline(always)]
     pub fn stress(&self, strain: Tensor<N>) -> Tensor<N> {
         Tensor {
@@ -239,15 +217,13 @@ impl<N: Number> Orthotropic<N> {
         }
     }
 
-    /// Tangent moduli along weft and warp at a strain, N/m.
-    #[must_use]
+    /// Moduli along weft and warp, N/m.
     #[inline(always)]
     pub fn tangents(&self, strain: Tensor<N>) -> [N; 2] {
         [self.weft.tangent(strain.weft), self.warp.tangent(strain.warp)]
     }
 
-    /// First-order change of the stress for a change of strain, N/m: the tangent stiffness applied to it.
-    #[must_use]
+    /// First-order change of the stress for a change of strain, N/m.
     #[inline(always)]
     pub fn tangent(&self, strain: Tensor<N>, change: Tensor<N>) -> Tensor<N> {
         let [weft, warp] = self.tangents(strain);
@@ -258,9 +234,8 @@ impl<N: Number> Orthotropic<N> {
         }
     }
 
-    /// Strain energy per area of a strain, N/m: `psi_1(E11) + psi_2(E22) + c12 E11 E22 + 2 G E12^2`, with the energies
-    /// `psi` of the two directions.
-    #[must_use]
+    /// Energy per area, N/m: `psi_1(E11) + psi_2(E22) + c12 E11 E22 + 2 G E12^2`, with the energies `psi` of the two
+    /// directions.
     #[inline(always)]
     pub fn energy(&self, strain: Tensor<N>) -> N {
         let along = self.weft.energy(strain.weft) + self.warp.energy(strain.warp);
@@ -273,7 +248,6 @@ impl<N: Number> Orthotropic<N> {
 mod tests {
     use super::*;
 
-    /// Checks that the stress is the slope of the energy, and the tangent that of the stress.
     fn check_slopes(law: Fibre, scale: f64, strains: &[f64]) {
         let h = 1e-6;
         for &e in strains {

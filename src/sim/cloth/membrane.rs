@@ -25,42 +25,34 @@ use linalg::PairList;
 use linalg::quad::Block;
 use linalg::simd;
 
-/// The membrane of a garment.
 #[derive(Clone, Debug)]
 pub struct Membrane {
-    /// Material laws; triangles refer to them by index.
     laws: Vec<Orthotropic>,
-    /// Triangles of the garment, in its order.
+    /// Triangles in the garment's order.
     pub elements: Vec<Element>,
-    /// The triangles in groups of four, as the vectorised kernels take them.
     fours: Vec<Four>,
-    /// Distinct combinations of the law indices of four triangles.
     mixtures: Vec<[u32; 4]>,
-    /// Laws of the `mixtures`, one lane for each triangle.
     packed: Vec<Orthotropic<[f64; 4]>>,
-    /// Pairs of vertices that share a triangle.
+    /// Vertices that share a triangle.
     pub pairs: PairList,
-    /// Indices of the sides of each triangle among `pairs`.
+    /// Indices of each triangle's sides among `pairs`.
     pub sides: Vec<[u32; 3]>,
-    /// The sides as arcs; empty where sides are taken as chords.
+    /// Empty where sides are taken as chords.
     pub arcs: Arcs,
 }
 
 /// Terms for the stiffness of the arcs ([`super::arcs`]).
 #[derive(Clone, Debug, Default)]
 pub struct Bowed {
-    /// Excess of the arcs and its derivatives.
     pub bent: Bent,
-    /// Tensile part of the tensions that are conjugate to half of the squared sides, N/m.
+    /// Tensile part of the tensions conjugate to half of the squared sides, N/m.
     pub tensions: Vec<f64>,
-    /// For each triangle the second derivatives of its energy by half of its squared sides, N/m3: of each side with
-    /// itself, then of the pairs (0, 1), (1, 2), (2, 0).
+    /// Second derivatives of each triangle's energy by half of its squared sides, N/m3: of each side with itself, then
+    /// of the pairs (0, 1), (1, 2), (2, 0).
     pub couplings: Vec<[f32; 6]>,
 }
 
 impl Membrane {
-    /// Sets up the membrane of some elements and their laws.
-    #[must_use]
     pub fn new(laws: Vec<Orthotropic>, elements: Vec<Element>) -> Self {
         let sides = [[0, 1], [1, 2], [2, 0]];
         let pairs = PairList::new(elements.iter().flat_map(|e| sides.map(|s| s.map(|k| e.vertices()[k]))));
@@ -90,46 +82,34 @@ impl Membrane {
         Self { laws, elements, fours, mixtures, packed, pairs, sides, arcs: Arcs::default() }
     }
 
-    /// Returns the same membrane with each law changed.
-    #[must_use]
     pub fn with_laws(self, change: impl Fn(&Orthotropic) -> Orthotropic) -> Self {
         let laws: Vec<Orthotropic> = self.laws.iter().map(change).collect();
         Self { packed: packed(&laws, &self.mixtures), laws, ..self }
     }
 
-    /// Material laws; triangles refer to them by index.
-    #[must_use]
     pub fn laws(&self) -> &[Orthotropic] {
         &self.laws
     }
 
-    /// Law of a triangle.
-    #[must_use]
     pub fn law(&self, triangle: usize) -> &Orthotropic {
         &self.laws[self.elements[triangle].law as usize]
     }
 
-    /// Returns the same membrane with its sides as arcs.
-    #[must_use]
     pub fn with_arcs(self, arcs: Arcs) -> Self {
         Self { arcs, ..self }
     }
 
-    /// Zero stiffness blocks, one for each pair.
-    #[must_use]
     pub fn blocks(&self) -> Vec<Block<f32x4>> {
         vec![[f32x4::ZERO; 3]; self.pairs.pairs().len()]
     }
 
-    /// Elastic energy, J.
-    #[must_use]
+    /// J.
     pub fn energy(&self, x: &[V3]) -> f64 {
         let bent = self.arcs.bent(x);
         simd::dispatch(self.assembly(x, &bent))
     }
 
     /// Green strain of each element, weft first, arcs included.
-    #[must_use]
     pub fn strains(&self, x: &[V3]) -> Vec<Matrix2<f64>> {
         let bent = self.arcs.bent(x);
         let strain = |(element, sides): (&Element, &[u32; 3])| {
@@ -147,7 +127,7 @@ impl Membrane {
         self.elements.iter().zip(&self.sides).map(strain).collect()
     }
 
-    /// Adds the elastic forces, N.
+    /// N.
     pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
         let bent = self.arcs.bent(x);
         let mut tensions = vec![0.0; bent.excess.len()];
@@ -155,9 +135,9 @@ impl Membrane {
         self.arcs.add_forces(&bent, &tensions, forces);
     }
 
-    /// Adds the elastic forces (N) and the off-diagonal stiffness blocks (N/m). Returns the energy (J) and the terms of
-    /// the arcs. The geometric part of the blocks is that of the stresses `predicted`, one for each element, or without
-    /// them of the stresses at `x`.
+    /// Adds the elastic forces (N) and the off-diagonal stiffness (N/m). Returns the energy (J) and the terms of the
+    /// arcs. The geometric part is that of the stresses `predicted`, one for each element, or without them of those at
+    /// `x`.
     pub fn assemble(
         &self,
         x: &[V3],
@@ -200,16 +180,15 @@ impl Membrane {
         }
     }
 
-    /// Adds a share of the first-order forces (N) of the compressive part of `stresses`, one for each element, along a
-    /// displacement `d`. The assembled stiffness leaves that part out.
+    /// Adds a share of the first-order forces (N) of the compressive part of `stresses` along `d`, which the assembled
+    /// stiffness leaves out.
     pub fn add_compression(&self, stresses: &[Tensor], d: &[V3], share: f64, forces: &mut [V3]) {
         simd::dispatch(Compression { fours: &self.fours, stresses, d, share, forces });
     }
 
-    /// Assembles the second-order correction of a step from `x` to `x + d`. It adds the forces (N) of the stresses at
-    /// the end of the step in excess of those that a linear solve at `x` predicts there. To `blocks` it adds the
-    /// off-diagonal blocks of the material stiffness at that end, N/m. It returns the predicted stresses and the terms
-    /// of the arcs.
+    /// Assembles the second-order correction of a step from `x` to `x + d`: forces (N) of the stresses at its end in
+    /// excess of those that a linear solve at `x` predicts, and the off-diagonal material stiffness at that end, N/m.
+    /// Returns the predicted stresses and the terms of the arcs.
     pub fn assemble_towards(
         &self,
         x: &[V3],
@@ -245,7 +224,6 @@ impl Membrane {
     }
 }
 
-/// Packed laws of each combination.
 fn packed(laws: &[Orthotropic], mixtures: &[[u32; 4]]) -> Vec<Orthotropic<[f64; 4]>> {
     mixtures.iter().map(|mixture| Orthotropic::packed(mixture.map(|law| &laws[law as usize]))).collect()
 }
@@ -265,13 +243,11 @@ mod tests {
         membrane_of(&fabric(), grain)
     }
 
-    /// Green strain of an element, by its definition.
     fn strain(element: &Element, x: &[V3]) -> Tensor {
         let gradient = element.deformation_gradient(x);
         Tensor::of(&(0.5 * (gradient.transpose() * gradient - Matrix2::identity())))
     }
 
-    /// A fabric that stiffens like a knit.
     fn knit() -> Fabric {
         let stretched = Stretched { stretch: 0.17, membrane_warp_n_m: 4000.0, membrane_weft_n_m: 1500.0 };
         Fabric { stretched: Some(stretched), ..fabric() }

@@ -27,18 +27,15 @@ use gathers::Gathers;
 use law::Orthotropic;
 use membrane::Membrane;
 
-/// Coulomb friction coefficients of a fabric.
+/// Coulomb coefficients.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
-    /// Coefficient on the body and the floor.
+    /// On the body and the floor.
     pub body: f64,
-    /// Coefficient on other cloth.
     pub cloth: f64,
 }
 
 impl Friction {
-    /// Friction coefficients of a fabric.
-    #[must_use]
     pub fn of(fabric: &Fabric) -> Self {
         Self { body: fabric.friction_body, cloth: fabric.friction_self }
     }
@@ -47,38 +44,29 @@ impl Friction {
 /// Mechanical model of a garment. Its *simulated* vertices are groups of garment vertices that are sewn together.
 #[derive(Clone, Debug)]
 pub struct Cloth {
-    /// Simulated vertex of each garment vertex.
     pub vertex_of: Vec<usize>,
     /// Triangles over simulated vertices, in the garment's order.
     pub triangles: Vec<[usize; 3]>,
     /// Lumped masses, kg.
     pub masses: Vec<f64>,
-    /// Lumped rest areas of the vertices, m2: a third of each adjacent triangle.
+    /// Lumped rest areas, m2: a third of each adjacent triangle.
     pub areas: Vec<f64>,
-    /// Friction coefficients of the vertices.
     pub frictions: Vec<Friction>,
-    /// Stretch and shear in the plane of the cloth.
     pub membrane: Membrane,
-    /// Bending across the edges that two triangles share.
     pub bending: Bending,
     /// Reinforced edges, as elastic threads along them.
     pub bands: Bands,
 }
 
 impl Cloth {
-    /// Sets up a garment whose vertices are merged as `vertex_of` says. Its values are 0..n without gaps.
-    ///
-    /// # Errors
-    /// When a triangle of the pattern mesh has no area.
+    /// Vertices are merged as `vertex_of` says; its values are 0..n without gaps. Fails where a triangle of the pattern
+    /// mesh has no area.
     pub fn new(garment: &Garment, fabric: &Fabric, vertex_of: Vec<usize>) -> Result<Self, SimError> {
         Self::of_layers(garment, &[(garment.pieces.len(), fabric)], vertex_of)
     }
 
-    /// Sets up several garments in one mesh. `layers` gives the number of pieces and the fabric of each garment, in the
-    /// order of the pieces.
-    ///
-    /// # Errors
-    /// When a triangle of the pattern mesh has no area.
+    /// Several garments in one mesh. `layers` gives the number of pieces and the fabric of each, in the order of the
+    /// pieces.
     pub fn of_layers(garment: &Garment, layers: &[(usize, &Fabric)], vertex_of: Vec<usize>) -> Result<Self, SimError> {
         let count = vertex_of.iter().max().map_or(0, |m| m + 1);
         let mut elements = Vec::with_capacity(garment.triangles.len());
@@ -122,61 +110,45 @@ impl Cloth {
         })
     }
 
-    /// Returns the same cloth with a share of its membrane stiffness ([`Orthotropic::slackened`]). Its bending
-    /// stiffness is unchanged.
-    #[must_use]
+    /// Takes a share of the membrane stiffness ([`Orthotropic::slackened`]), and all of the bending stiffness.
     pub fn slackened(mut self, share: f64) -> Self {
         self.membrane = self.membrane.with_laws(|law| law.slackened(share));
         self
     }
 
-    /// Adds the forces of membrane, bending and bands at `x`, N.
     pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
         self.membrane.add_forces(x, forces);
         self.bending.add_forces(x, forces);
         self.bands.add_forces(x, forces);
     }
 
-    /// Number of simulated vertices.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.masses.len()
     }
 
-    /// True if there is no vertex to simulate.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.masses.is_empty()
     }
 
-    /// Positions of the garment vertices, each that of its simulated vertex.
-    #[must_use]
     pub fn unweld(&self, x: &[V3]) -> Vec<V3> {
         self.vertex_of.iter().map(|&v| x[v]).collect()
     }
 
-    /// Positions of the simulated vertices: the mean over the garment vertices of each group.
-    #[must_use]
+    /// Positions of the simulated vertices: means over the garment vertices of each group.
     pub fn weld(&self, positions: &[V3]) -> Vec<V3> {
         sewing::merged(&self.vertex_of, positions)
     }
 }
 
-/// A side of a triangle whose neighbour across it is not known yet.
 struct OpenSide {
-    /// Vertex opposite the side.
     opposite: usize,
     flap: Flap,
-    /// Index of the triangle.
     plate: usize,
-    /// Number of the side in the triangle.
     side: usize,
 }
 
-/// Collects triangles one by one, and finds the hinge between each two that share an edge.
 #[derive(Default)]
 struct PlateBuilder {
-    /// Sides whose neighbour has not come yet, by the direction of the edge.
     open: BTreeMap<[usize; 2], OpenSide>,
     hinges: Vec<Hinge>,
     plates: Vec<Plate>,
@@ -184,7 +156,7 @@ struct PlateBuilder {
 }
 
 impl PlateBuilder {
-    /// Adds a triangle with rest corners `rest`, counter-clockwise, and the unit warp direction `grain`.
+    /// `rest` is counter-clockwise, `grain` the unit warp direction.
     fn add(&mut self, vertices: [usize; 3], rest: [V2; 3], grain: V2, fabric: &Fabric) {
         let plate = self.plates.len();
         let weft = V2::new(grain.y, -grain.x);
@@ -225,7 +197,6 @@ impl PlateBuilder {
     }
 }
 
-/// Collects the constants of the cloth model that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
     [arcs::CONSTANTS, bending::CONSTANTS, gathers::CONSTANTS, law::CONSTANTS, slack::CONSTANTS].concat()
 }

@@ -6,21 +6,17 @@ use super::element::Element;
 use super::membrane::Membrane;
 use linalg::PairList;
 
-/// Vertices of a part with their indices in it. Their order is that in the cloth.
+/// Vertices of a part, in the order of the cloth.
 pub struct Part {
-    /// Vertices of the part in the cloth, in ascending order.
+    /// Indices in the cloth, ascending.
     pub vertices: Vec<usize>,
-    /// True for each of them that may move.
     pub is_free: Vec<bool>,
-    /// Index in the part of each vertex of the cloth.
     names: Vec<Option<usize>>,
-    /// Triangles whose energies depend on free vertices.
     triangles: Vec<usize>,
 }
 
 impl Part {
-    /// Selects the vertices that are `free`, all vertices that membrane or bending couple to them, and `others`.
-    #[must_use]
+    /// Selects the vertices that are `free`, all that membrane or bending couple to them, and `others`.
     pub fn new(cloth: &Cloth, free: &[bool], others: &[usize]) -> Self {
         let mut is_in = free.to_vec();
         for &[i, j] in cloth.membrane.pairs.pairs().iter().chain(cloth.bending.pairs.pairs()) {
@@ -47,25 +43,19 @@ impl Part {
         Self { is_free: vertices.iter().map(|&v| free[v]).collect(), vertices, names, triangles }
     }
 
-    /// Indices of some vertices in the part; `None` unless all are in it and at least one of them may move.
-    #[must_use]
+    /// Indices in the part; `None` unless all vertices are in it and at least one may move.
     pub fn names<const N: usize>(&self, vertices: [usize; N]) -> Option<[usize; N]> {
         let names = vertices.map(|v| self.names[v]);
         let is_free = names.iter().flatten().any(|&name| self.is_free[name]);
         (is_free && names.iter().all(Option::is_some)).then(|| names.map(Option::unwrap_or_default))
     }
 
-    /// Selects the values of the vertices of the part.
-    #[must_use]
     pub fn of<T: Copy>(&self, values: &[T]) -> Vec<T> {
         self.vertices.iter().map(|&v| values[v]).collect()
     }
 }
 
 impl Cloth {
-    /// Returns a part as a cloth of its own, with the energies that depend on its free vertices, and the indices of its
-    /// triangles.
-    #[must_use]
     pub fn part(&self, part: &Part) -> (Self, Vec<usize>) {
         let name = |v: usize| part.names[v].unwrap_or_default();
         let renamed = |t: &usize| {
@@ -91,9 +81,7 @@ impl Cloth {
 }
 
 impl Bending {
-    /// Bending of a part: the pairs with a vertex that may move. `sides` are the sides of the triangles of the cloth,
-    /// then those of the part.
-    #[must_use]
+    /// Pairs with a vertex that may move. `sides` are the triangle sides of the cloth, then those of the part.
     pub fn part(&self, part: &Part, sides: [&PairList; 2]) -> Self {
         let (pairs, entries) = renamed(part, &self.pairs, &self.entries);
         Self { pairs, entries, tangent: self.tangent.part(part, sides) }
@@ -101,8 +89,6 @@ impl Bending {
 }
 
 impl Tangent {
-    /// Stiffness of a part: the pairs with a vertex that may move. `sides` are the sides of the triangles of the cloth,
-    /// then those of the part.
     fn part(&self, part: &Part, sides: [&PairList; 2]) -> Self {
         let mut along = vec![0.0; sides[1].pairs().len()];
         for (&pair, entry) in sides[0].pairs().iter().zip(&self.along) {
@@ -115,8 +101,8 @@ impl Tangent {
     }
 }
 
-/// Pairs with a vertex that may move in a part, by its indices, with their entries. Their order stays, since that of
-/// the vertices does.
+/// Pairs with a vertex that may move, by indices of the part, with their entries. Their order stays, since that of the
+/// vertices does.
 fn renamed(part: &Part, pairs: &PairList, entries: &[f64]) -> (PairList, Vec<f64>) {
     let renamed = |(pair, entry): (&[usize; 2], &f64)| Some((part.names(*pair)?, *entry));
     let (pairs, entries): (Vec<[usize; 2]>, _) = pairs.pairs().iter().zip(entries).filter_map(renamed).unzip();

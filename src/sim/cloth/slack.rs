@@ -14,9 +14,8 @@ geom::constants! {
     const STRETCHES: [f64; 3] = [0.025, 0.008, 0.0012];
 }
 
-/// Shares of the membrane stiffness for the stages, in increasing order, for cloth of which a length `hanging_m` hangs.
-/// Shares of 1 and more are left out: such a fabric stretches by as much with its full stiffness.
-#[must_use]
+/// Shares of the membrane stiffness for the stages, increasing, for cloth of which a length `hanging_m` hangs. Shares
+/// of 1 and more are left out: such a fabric stretches by as much with its full stiffness.
 pub fn shares(fabric: &Fabric, hanging_m: f64) -> Vec<f64> {
     let Fabric { density_kg_m2, membrane_warp_n_m, membrane_weft_n_m, .. } = *fabric;
     let weight_n_m = density_kg_m2 * GRAVITY * hanging_m;

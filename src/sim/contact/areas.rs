@@ -3,13 +3,11 @@
 use pattern::Garment;
 
 /// Rest areas of the vertices of a sewn garment for its contact with itself, m2. Where a triangle is lower at a vertex
-/// than `least_m`, the area of the vertex is at most the square of that height.
+/// than `least_m`, the area is at most the square of that height.
 ///
-/// A pattern may have edges of a millimetre, where two seams just miss each other. The two ends of such an edge, and
-/// the parts around them, are then nearer than the distance at which layers repel each other. The thickness of a
-/// contact grows with these areas. With the areas of the mesh the cloth would push itself apart in its own plane, with
-/// forces beyond its weight.
-#[must_use]
+/// A pattern may have edges of a millimetre, where two seams just miss each other. The two ends of such an edge are
+/// then nearer than the distance at which layers repel each other, and contacts thicken with these areas. With the
+/// areas of the mesh the cloth would push itself apart in its own plane, with forces beyond its weight.
 pub fn contact_areas(garment: &Garment, vertex_of: &[usize], areas: &[f64], least_m: f64) -> Vec<f64> {
     let mut areas = areas.to_vec();
     for t in &garment.triangles {
@@ -32,8 +30,7 @@ mod tests {
     use crate::laboratory;
     use geom::{V2, V3};
 
-    /// A flat strip of two rows whose two middle columns are `apart_m` apart, and the others 0.02 m; and its vertex
-    /// areas.
+    /// Two rows, with the middle columns `apart_m` apart and the others 0.02 m; and the vertex areas.
     fn strip(apart_m: f64) -> (Garment, Vec<f64>) {
         let columns = [-0.04, -0.02, 0.0, apart_m, 0.02 + apart_m, 0.04 + apart_m];
         let rest: Vec<V2> = [0.0, 0.02].iter().flat_map(|y| columns.map(|x| V2::new(x, *y))).collect();
@@ -48,7 +45,6 @@ mod tests {
         (garment, areas)
     }
 
-    /// Greatest force of the contact of a flat garment with itself, N.
     fn greatest_n(garment: &Garment, areas: &[f64]) -> f64 {
         let x: Vec<V3> = garment.rest.iter().map(|p| V3::new(p.x, p.y, 0.0)).collect();
         let mut contact = ClothContact::new(ClothContactParams::default(), &garment.triangles, areas);

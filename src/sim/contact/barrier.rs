@@ -2,14 +2,14 @@
 
 use super::penalty;
 
-/// Contact potential at a distance and its derivatives, over the penalty stiffness.
+/// Contact potential and its derivatives, over the penalty stiffness.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Push {
-    /// Energy over the stiffness, m2.
+    /// m2.
     pub energy: f64,
-    /// Repulsive force over the stiffness, m.
+    /// Repulsive force, m.
     pub force: f64,
-    /// Derivative of the force by the depth of the contact, over the stiffness.
+    /// Derivative of the force by the depth of the contact.
     pub stiffness: f64,
 }
 
@@ -22,8 +22,8 @@ geom::constants! {
     const SOFTNESS: f64 = 0.05;
     /// Distance `d0` below which the barrier acts, as a share of the thickness.
     const FROM: f64 = 0.5;
-    /// Distance down to which the barrier is logarithmic, as a share of the thickness. Below it the barrier is
-    /// continued as a parabola, so that the potential stays finite.
+    /// Distance down to which the barrier is logarithmic, as a share of the thickness. Below it is a parabola, so that
+    /// the potential stays finite.
     const TO: f64 = 0.01;
     /// Factor of the barrier relative to the spring.
     const STRENGTH: f64 = 4.0;
@@ -34,7 +34,6 @@ geom::constants! {
 /// The pressure at the depth `t - d` is that of [`penalty::push`]. Below `d0 = t/2` the logarithmic barrier `-4 k (d -
 /// d0)^2 ln(d / d0)` [Li 2020] is added to the energy. Its second derivative reaches ten thousand times `k` before the
 /// barrier is cut off.
-#[must_use]
 pub fn push(distance_m: f64, thickness_m: f64, stiffness_n_m3: f64) -> Option<Push> {
     let depth = thickness_m - distance_m;
     // NaN where a triangle has collapsed.

@@ -24,70 +24,60 @@ use linalg::Contact4;
 
 geom::constants! {
     "contact.body",
-    /// Contribution of the curvature of the field to the stiffness below which it is left out, as a share of the
-    /// contribution along the gradient.
+    /// Contribution of the field's curvature to the stiffness below which it is left out, as a share of that along the
+    /// gradient.
     const NEARLY_FLAT: f64 = 0.02;
-    /// Greatest growth of an offset at once, m.
+    /// Greatest growth of an offset at once.
     const MOST_YIELD_M: f64 = 2e-3;
-    /// Greatest error of the blurred field near cloth that touches, m.
+    /// Greatest error of the blurred field near cloth that touches.
     const FIELD_ERROR_M: f64 = 4e-3;
     /// Bound on the gradient of the field. A true distance field has the gradient 1; the rest is for rounding.
     const STEEPEST: f64 = 1.05;
 }
 
-/// A sample point of the cloth that is kept out of the body.
+/// Point of the cloth that is kept out of the body.
 #[derive(Clone, Copy, Debug)]
 struct Sample {
     point: Point,
-    /// Distance in the field below which it is repelled, m.
+    /// Distance in the field below which it is repelled.
     offset_m: f64,
-    /// Rest area of the sample, m2.
     area_m2: f64,
 }
 
-/// Last evaluation of the field at a sample.
 #[derive(Clone, Copy, Debug)]
 struct Seen {
-    /// Position of the sample then, m.
     place: V3,
-    /// Distance that it may move from there before it can touch, m.
+    /// Distance that the sample may move from `place` before it can touch.
     slack_m: f64,
 }
 
 impl Seen {
-    /// Value for a sample at which the field was not evaluated yet.
     const NEVER: Self = Self { place: V3::new(0.0, 0.0, 0.0), slack_m: f64::MIN };
 
-    /// True if the sample cannot touch at `p`, so that the field need not be evaluated.
     #[inline(always)]
     fn is_clear(&self, p: &V3) -> bool {
         self.slack_m > 0.0 && (p - self.place).norm_squared() < self.slack_m * self.slack_m
     }
 }
 
-/// A sample in contact at the start of a step.
 #[derive(Clone, Copy, Debug)]
 struct Touch {
     sample: usize,
-    /// Gradient of the distance there.
     gradient: V3,
     push: Push,
 }
 
-/// Contact of a cloth with a body.
 pub struct BodyContact<'a> {
     field: &'a DistanceField,
-    /// Height of the floor, m; `None` where there is none.
     floor_m: Option<f64>,
     params: ContactParams,
-    /// The vertices in their order, then points between them.
+    /// Vertices in their order, then points between them.
     samples: Vec<Sample>,
     vertices: usize,
-    /// Friction anchor of each sample, m.
     anchors: Vec<Option<V3>>,
-    /// Last evaluations, stored apart from `samples`, since most samples need nothing else.
+    /// Stored apart from `samples`, since most samples need nothing else.
     seen: Vec<Seen>,
-    /// Friction coefficients of the vertices; `None` while friction is off.
+    /// Coefficients of the vertices; `None` while friction is off.
     friction: Option<Vec<f64>>,
     /// True if friction holds beyond the Coulomb limit.
     holds_fast: bool,
@@ -95,8 +85,7 @@ pub struct BodyContact<'a> {
 }
 
 impl<'a> BodyContact<'a> {
-    /// Sets up contact without friction for vertices with the rest areas `areas`, m2.
-    #[must_use]
+    /// Contact without friction for vertices with the rest areas `areas`, m2.
     pub fn new(field: &'a DistanceField, params: ContactParams, areas: &[f64]) -> Self {
         let sample =
             |(v, area): (usize, &f64)| Sample { point: Point::vertex(v), offset_m: params.offset_m, area_m2: *area };
@@ -114,8 +103,6 @@ impl<'a> BodyContact<'a> {
         }
     }
 
-    /// Contact of a part of the cloth.
-    #[must_use]
     pub fn part(&self, part: &Part) -> Self {
         let vertex = |(name, &v): (usize, &usize)| Sample { point: Point::vertex(name), ..self.samples[v] };
         let vertices = part.vertices.iter().enumerate().map(vertex);
@@ -135,14 +122,12 @@ impl<'a> BodyContact<'a> {
         }
     }
 
-    /// Points between vertices of a part: their indices, and the samples with the vertex indices of the part.
     fn between(&self, part: &Part) -> impl Iterator<Item = (usize, Sample)> {
         let renamed = |point: &Point| Some(Point { vertices: part.names(point.vertices)?, ..*point });
         let between = self.samples.iter().enumerate().skip(self.vertices);
         between.filter_map(move |(k, sample)| Some((k, Sample { point: renamed(&sample.point)?, ..*sample })))
     }
 
-    /// Takes over the friction anchors of a part of the cloth.
     pub fn take_anchors(&mut self, part: &Part, contact: &BodyContact) {
         let between: Vec<usize> = self.between(part).map(|(k, _)| k).collect();
         for (&k, anchor) in part.vertices.iter().chain(&between).zip(&contact.anchors) {
@@ -150,7 +135,6 @@ impl<'a> BodyContact<'a> {
         }
     }
 
-    /// Adds a floor at a height (m), with the same contact as the body.
     pub fn set_floor(&mut self, height_m: f64) {
         self.floor_m = Some(height_m);
         self.seen.fill(Seen::NEVER);
@@ -166,19 +150,17 @@ impl<'a> BodyContact<'a> {
         }
     }
 
-    /// Hessian of that distance, 1/m.
+    /// Hessian of the distance, 1/m.
     fn curvature(&self, p: &V3) -> Matrix3<f64> {
         let is_on_floor = |floor_m| p.z - floor_m < self.field.value_and_gradient(p).0;
         if self.floor_m.is_some_and(is_on_floor) { Matrix3::zeros() } else { self.field.hessian(p) }
     }
 
-    /// Sets the penalty stiffness.
     pub fn set_stiffness(&mut self, stiffness_n_m3: f64) {
         self.params.stiffness_n_m3 = stiffness_n_m3;
     }
 
-    /// Greatest depth of a sample below its offset at `x`, m: the yield of the penalty.
-    #[must_use]
+    /// Greatest depth of a sample below its offset: the yield of the penalty.
     pub fn yields_m(&self, x: &[V3]) -> f64 {
         let depths = (0..self.samples.len()).filter_map(|k| self.depth(k, x));
         depths.map(|(depth, _)| depth).fold(0.0, f64::max)
@@ -191,20 +173,18 @@ impl<'a> BodyContact<'a> {
     }
 
     /// Makes friction hold every sample at its anchor from now on, whatever the force. A sample that has slid is just
-    /// at its Coulomb limit: a small motion in one direction would be held, and in the other not.
+    /// at its Coulomb limit: it would be held in one direction only.
     pub fn hold_fast(&mut self) {
         self.holds_fast = true;
     }
 
     /// Number of samples in contact at the last [`BodyContact::assemble`].
-    #[must_use]
     pub fn count(&self) -> usize {
         self.touching.len()
     }
 
-    /// Adds every edge midpoint and triangle centroid as a sample. It is for coarse meshes, whose edges could pass
-    /// through an arm unnoticed.
-    #[must_use]
+    /// Adds edge midpoints and triangle centroids as samples, for coarse meshes, whose edges could pass through an arm
+    /// unnoticed.
     pub fn with_points_between(mut self, triangles: &[[usize; 3]]) -> Self {
         let edges = edges_of(triangles);
         for point in Point::between(edges.pairs(), triangles) {
@@ -213,7 +193,6 @@ impl<'a> BodyContact<'a> {
         self
     }
 
-    /// Adds a point between vertices as a sample.
     fn push(&mut self, point: Point, offset_m: f64) {
         let area_m2 = (0..3).map(|k| self.samples[point.vertices[k]].area_m2 * point.weights[k]).sum();
         self.samples.push(Sample { point, offset_m, area_m2 });
@@ -225,8 +204,8 @@ impl<'a> BodyContact<'a> {
     /// held [`ContactParams::clearance_m`] off it from now on. Returns the greatest depth, m (0 where there is none).
     ///
     /// The offset of such a point is corrected for the blur of the field, which cuts off sharp convex parts of the
-    /// body. Where the cloth `is_at_rest` and a point held before is still inside, the penalty yields to the load. The
-    /// offset then grows by the depth (an augmented penalty).
+    /// body. Where the cloth `is_at_rest` and a point held before is still inside, the penalty yields to the load, and
+    /// the offset grows by the depth (an augmented penalty).
     pub fn hold_out(
         &mut self,
         skin: &Skin,
@@ -266,13 +245,12 @@ impl<'a> BodyContact<'a> {
         deepest
     }
 
-    /// Position of a sample, m.
     #[inline(always)]
     fn place(&self, k: usize, x: &[V3]) -> V3 {
         if k < self.vertices { x[k] } else { self.samples[k].point.at(x) }
     }
 
-    /// Depth of a sample below its offset, m, and the gradient of the distance there; `None` where it does not touch.
+    /// Depth below the offset, m, and the gradient of the distance; `None` where the sample does not touch.
     #[inline(always)]
     fn depth(&self, k: usize, x: &[V3]) -> Option<(f64, V3)> {
         let p = self.place(k, x);
@@ -283,8 +261,7 @@ impl<'a> BodyContact<'a> {
         Some((self.samples[k].offset_m - distance, gradient)).filter(|(depth, _)| *depth > 0.0)
     }
 
-    /// Contact and friction energy, J. That of friction uses the normal forces and anchors of the current step.
-    #[must_use]
+    /// Contact and friction energy, J. Friction uses the normal forces and anchors of the current step.
     pub fn energy(&self, x: &[V3]) -> f64 {
         let mut energy = 0.0;
         for k in 0..self.samples.len() {
@@ -295,8 +272,7 @@ impl<'a> BodyContact<'a> {
         energy + self.touching.iter().filter_map(|t| self.friction_at(t, x)).map(|f| f.energy_j).sum::<f64>()
     }
 
-    /// Adds the contact and friction forces at `x`, N. Those of friction use the normal forces and anchors of the
-    /// current step.
+    /// Adds the contact and friction forces, N. Friction uses the normal forces and anchors of the current step.
     pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
         for k in 0..self.samples.len() {
             if let Some((depth, gradient)) = self.depth(k, x) {
@@ -308,7 +284,6 @@ impl<'a> BodyContact<'a> {
         self.add_friction(x, forces);
     }
 
-    /// Adds the friction forces at `x`, N.
     fn add_friction(&self, x: &[V3], forces: &mut [V3]) {
         for touch in &self.touching {
             if let Some(f) = self.friction_at(touch, x) {
@@ -317,8 +292,8 @@ impl<'a> BodyContact<'a> {
         }
     }
 
-    /// Finds the touching samples. Adds their forces (N) to `forces` and the stiffness of vertices (N/m) to `diagonal`.
-    /// Returns the energy (J) and the stiffness of points between vertices.
+    /// Finds the touching samples. Adds their forces (N), and the stiffness of vertices (N/m) to `diagonal`. Returns
+    /// the energy (J) and the stiffness of points between vertices.
     pub fn assemble(&mut self, x: &[V3], forces: &mut [V3], diagonal: &mut [Matrix3<f64>]) -> (f64, Vec<Contact4>) {
         self.find_touching(x);
         let (mut pushed, mut rubbed) = (0.0, 0.0);
@@ -344,8 +319,8 @@ impl<'a> BodyContact<'a> {
         (pushed + rubbed, couplings)
     }
 
-    /// Stiffness of a touching sample at `p`: the Hessian of its energy without its negative eigenvalues, and
-    /// `sideways` the tangential stiffness of friction.
+    /// Hessian of a touching sample's energy without its negative eigenvalues, and `sideways` the tangential stiffness
+    /// of friction.
     ///
     /// The curvature of the field matters where skin faces skin. In an armpit the gradient is small and turns within a
     /// few millimetres, and cloth between the two sides is held by that alone.
@@ -364,10 +339,9 @@ impl<'a> BodyContact<'a> {
         stiffness * self.samples[touch.sample].area_m2 + friction
     }
 
-    /// Adds the forces of the samples that touch at `x`, the end of a step. It also provides the stiffness by which
-    /// they exceed that of [`BodyContact::assemble`] at the start: of new contacts, and of deeper ones. The stiffness
-    /// of vertices is added to `diagonal`, and that of points between them is returned.
-    #[must_use]
+    /// Adds the forces of the samples that touch at `x`, the end of a step, and the stiffness of new and deeper
+    /// contacts beyond that of [`BodyContact::assemble`]: of vertices to `diagonal`, of points between them as return
+    /// value.
     pub fn meet(&self, x: &[V3], forces: &mut [V3], diagonal: &mut [Matrix3<f64>]) -> Vec<Contact4> {
         let mut has = vec![0.0; self.samples.len()];
         for touch in &self.touching {
@@ -389,7 +363,7 @@ impl<'a> BodyContact<'a> {
         couplings
     }
 
-    /// Finds the samples in contact at `x`, and sets anchors for new ones.
+    /// Sets anchors for new contacts.
     fn find_touching(&mut self, x: &[V3]) {
         self.touching.clear();
         for k in 0..self.samples.len() {
@@ -412,7 +386,7 @@ impl<'a> BodyContact<'a> {
         }
     }
 
-    /// Friction of a touching sample at `x`; `None` without friction or anchor.
+    /// `None` without friction or anchor.
     fn friction_at(&self, touch: &Touch, x: &[V3]) -> Option<Friction> {
         let sample = &self.samples[touch.sample];
         let coefficient = self.friction.as_ref()?[sample.point.vertices[0]];
@@ -426,9 +400,9 @@ impl<'a> BodyContact<'a> {
     }
 
     /// Updates the anchors after a step to `x`: those of sliding samples are dragged along, and all are moved along the
-    /// normal to the level of their samples. An anchor left behind along the normal would pull sideways as soon as the
-    /// normal turns. In the crease of an armpit it turns by 12 degrees within 0.05 mm, and vertices would oscillate
-    /// there for ever.
+    /// normal to the level of their samples. One left behind along the normal would pull sideways as soon as the normal
+    /// turns. In the crease of an armpit it turns by 12 degrees within 0.05 mm, and vertices would oscillate there for
+    /// ever.
     pub fn drag_anchors(&mut self, x: &[V3]) {
         for k in 0..self.touching.len() {
             let touch = self.touching[k];

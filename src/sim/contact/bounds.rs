@@ -4,7 +4,7 @@ use wide::f32x4;
 
 use geom::V3;
 
-/// An axis-aligned bounding box in single precision, rounded outwards. The fourth component is zero.
+/// Axis-aligned box in single precision, rounded outwards. The fourth component is zero.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
     low: f32x4,
@@ -13,12 +13,10 @@ pub struct Bounds {
 
 geom::constants! {
     "contact.bounds",
-    /// Relative widening of boxes, which covers the rounding of coordinates and of the widening itself.
+    /// Relative widening that covers the rounding of coordinates and of itself.
     const ROUNDING: f32 = 2.0 * f32::EPSILON;
 }
 
-/// A point in single precision, for [`Bounds::around`].
-#[must_use]
 #[inline(always)]
 pub fn rounded(p: &V3) -> f32x4 {
     f32x4::from([p.x as f32, p.y as f32, p.z as f32, 0.0])
@@ -31,14 +29,10 @@ impl Bounds {
         high: f32x4::new([f32::MIN, f32::MIN, f32::MIN, 0.0]),
     };
 
-    /// Box from the lowest to the highest corner.
-    #[must_use]
     pub fn new(low: &V3, high: &V3) -> Self {
         Self { low: rounded(low), high: rounded(high) }.widened(0.0)
     }
 
-    /// Box of some points, widened by `reach_m`.
-    #[must_use]
     #[inline(always)]
     pub fn around<const N: usize>(points: [f32x4; N], reach_m: f32) -> Self {
         let (mut low, mut high) = (points[0], points[0]);
@@ -48,8 +42,6 @@ impl Bounds {
         Self { low, high }.widened(reach_m)
     }
 
-    /// Box widened by `reach_m` on all sides.
-    #[must_use]
     #[inline(always)]
     pub fn widened(&self, reach_m: f32) -> Self {
         let reach = f32x4::from([reach_m, reach_m, reach_m, 0.0]);
@@ -58,14 +50,10 @@ impl Bounds {
         Self { low: low - (low.abs() + reach) * rounding, high: high + (high.abs() + reach) * rounding }
     }
 
-    /// Box that encloses both boxes.
-    #[must_use]
     pub fn with(&self, other: &Self) -> Self {
         Self { low: self.low.fast_min(other.low), high: self.high.fast_max(other.high) }
     }
 
-    /// Lowest and highest corner.
-    #[must_use]
     pub fn corners(&self) -> [V3; 2] {
         [self.low, self.high].map(|corner| {
             let [x, y, z, _] = corner.to_array().map(f64::from);
@@ -73,22 +61,18 @@ impl Bounds {
         })
     }
 
-    /// Half of the longest side, m.
-    #[must_use]
+    /// Half of the longest side.
     pub fn half_m(&self) -> f64 {
         let [low, high] = self.corners();
         0.5 * (high - low).max()
     }
 
-    /// Distance between two boxes, m; 0 where they overlap.
-    #[must_use]
+    /// 0 where the boxes overlap.
     pub fn apart_m(&self, other: &Self) -> f64 {
         let between = (self.low - other.high).fast_max(other.low - self.high).fast_max(f32x4::ZERO);
         between.to_array().iter().map(|d| f64::from(*d) * f64::from(*d)).sum::<f64>().sqrt()
     }
 
-    /// True if the boxes overlap.
-    #[must_use]
     #[inline(always)]
     pub fn meets(&self, other: &Self) -> bool {
         (self.low.simd_le(other.high) & other.low.simd_le(self.high)).all()

@@ -14,65 +14,53 @@ use geom::V3;
 use geom::triangle::sorted;
 use linalg::PairList;
 
-/// Search structure of a cloth. Its primitives are grouped in clusters, and pairs of clusters remember how far apart
-/// their unknown pairs of primitives are at least.
+/// Search structure of a cloth. Pairs of clusters of primitives remember how far apart their unknown pairs of
+/// primitives are at least.
 pub struct BroadPhase<'a> {
     triangles: &'a [[usize; 3]],
     edges: PairList,
     clusters: Clusters,
-    /// Representative of the vertices that a vertex is sewn to.
+    /// Representative of the vertices that each is sewn to.
     joined: Vec<usize>,
-    /// Positions at the last look, rounded to single precision.
     seen: Vec<f32x4>,
-    /// Bounding boxes of the clusters at the last look.
     extents: Vec<Bounds>,
-    /// Pairs of clusters that were near each other at the last look, except flat ones, in ascending order.
+    /// Clusters near each other at the last look, except flat ones, ascending.
     near: Vec<Near>,
-    /// Distance below which clusters are near, m.
+    /// Distance below which clusters are near.
     horizon_m: f64,
-    /// Known pairs of primitives, grouped by near clusters.
     pairs: Vec<Pair>,
 }
 
-/// Two primitives of the cloth that share no vertex.
+/// Two primitives that share no vertex.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair {
-    /// A vertex and a triangle, or two edges.
     pub primitives: Primitives,
-    /// Their distance at the last look, m.
     pub distance_m: f64,
 }
 
-/// Distance up to which the pairs of primitives of two clusters are to be known.
 pub struct Within {
-    /// Distance, m. Where pairs are known up to it, they are not searched again.
+    /// Pairs known up to it are not searched again.
     pub at_least_m: f64,
-    /// Distance up to which they are searched otherwise, m.
+    /// Distance up to which they are searched otherwise.
     pub at_best_m: f64,
 }
 
-/// A pair of near clusters.
 struct Near {
-    /// Indices of the clusters, in ascending order; both are the same for a cluster with itself.
+    /// Ascending; both the same for a cluster with itself.
     clusters: [usize; 2],
-    /// Distance of their bounding boxes, m.
     apart_m: f64,
-    /// Distance up to which pairs of their primitives are known, m.
+    /// Distance up to which pairs of primitives are known.
     known_m: f64,
-    /// Range of those pairs in the list of all pairs.
     pairs: Range<usize>,
 }
 
 impl Near {
-    /// Lower bound of the distance of unknown pairs of their primitives, m.
     fn unknown_m(&self) -> f64 {
         self.apart_m.max(self.known_m)
     }
 }
 
 impl<'a> BroadPhase<'a> {
-    /// Prepares the search in a cloth of `vertices` vertices.
-    #[must_use]
     pub fn new(triangles: &'a [[usize; 3]], vertices: usize) -> Self {
         let edges = edges_of(triangles);
         let clusters = Clusters::new(vertices, triangles, &edges);
@@ -90,7 +78,6 @@ impl<'a> BroadPhase<'a> {
         }
     }
 
-    /// Treats the two vertices of each `sewn` pair as one.
     pub fn join(&mut self, sewn: impl Iterator<Item = [usize; 2]>) {
         for [a, b] in sewn {
             let (kept, gone) = (self.joined[a], self.joined[b]);
@@ -98,39 +85,29 @@ impl<'a> BroadPhase<'a> {
         }
     }
 
-    /// Edges of the cloth.
-    #[must_use]
     pub fn edges(&self) -> &[[usize; 2]] {
         self.edges.pairs()
     }
 
-    /// Triangles of the cloth.
-    #[must_use]
     pub fn triangles(&self) -> &'a [[usize; 3]] {
         self.triangles
     }
 
-    /// True if the clusters that were left out as flat are still flat at `x`.
-    #[must_use]
     pub fn stay_flat(&self, x: &[V3]) -> bool {
         self.clusters.stay_flat(x, self.triangles)
     }
 
-    /// Motion of the clusters for some displacements of the vertices.
-    #[must_use]
     pub fn motion(&self, displacements: &[V3]) -> Motion {
         self.clusters.motion(displacements)
     }
 
-    /// Motion of a cloth at rest: none.
-    #[must_use]
     pub fn rest(&self) -> Motion {
         self.clusters.rest()
     }
 
-    /// Looks at the cloth at `x`, which has `made` a motion since the last look, and returns the near pairs of
-    /// primitives. They are known up to the distance that `within` asks for their two clusters, if that is below
-    /// `horizon_m`. Pairs within flat cloth are left out.
+    /// Near pairs of primitives at `x`, where the cloth has `made` a motion since the last look. They are known up to
+    /// the distance that `within` asks for their clusters, if it is below `horizon_m`. Pairs within flat cloth are left
+    /// out.
     pub fn find_pairs(
         &mut self,
         x: &[V3],
@@ -171,9 +148,8 @@ impl<'a> BroadPhase<'a> {
         &self.pairs
     }
 
-    /// Looks at the cloth at `x`: finds the flat clusters, and which of the others are within `horizon_m` of each
-    /// other. The distance up to which pairs are known shrinks by the greatest approach of the clusters in the motion
-    /// `made`.
+    /// Finds the flat clusters, and which others are within `horizon_m` of each other. The distance up to which pairs
+    /// are known shrinks by the greatest approach of the clusters in the motion `made`.
     fn look(&mut self, x: &[V3], horizon_m: f64, made: Option<&Motion>) {
         self.clusters.look(x, self.triangles);
         self.seen = x.iter().map(rounded).collect();
@@ -208,9 +184,8 @@ impl<'a> BroadPhase<'a> {
         }
     }
 
-    /// Greatest further approach of two primitives before an unknown pair can meet, m. The cloth has made these
-    /// `motions` since the last look, each a number of times.
-    #[must_use]
+    /// Greatest further approach of two primitives before an unknown pair can meet. Since the last look the cloth has
+    /// made each of `motions` a number of times.
     pub fn room_m<const N: usize>(&self, motions: [(&Motion, f64); N]) -> f64 {
         let used = |approach: &dyn Fn(&Motion) -> f64| {
             motions.iter().map(|(motion, times)| approach(motion) * times).sum::<f64>()
@@ -220,15 +195,13 @@ impl<'a> BroadPhase<'a> {
         self.near.iter().map(left).fold(far, f64::min)
     }
 
-    /// Greatest share of the motion `next` that can be made after `made` before an unknown pair can meet.
-    #[must_use]
+    /// Share of `next` that can be made after `made` before an unknown pair can meet.
     pub fn free_share(&self, made: &Motion, next: &Motion) -> f64 {
         let far = (self.horizon_m - 2.0 * made.farthest_m) / (2.0 * next.farthest_m);
         let share = |near: &Near| (near.unknown_m() - made.closing_m(near.clusters)) / next.closing_m(near.clusters);
         self.near.iter().map(share).fold(far, f64::min)
     }
 
-    /// Finds the near pairs of primitives of two clusters, or of one with itself.
     fn between(
         &self,
         [one, other]: [&Boxes; 2],
@@ -264,8 +237,7 @@ impl<'a> BroadPhase<'a> {
         }
     }
 
-    /// True if two sets of vertices have none in common, nor any that are sewn together.
-    #[must_use]
+    /// True if two sets share no vertex, nor any sewn together.
     pub fn are_apart(&self, one: &[usize], other: &[usize]) -> bool {
         one.iter().all(|&v| other.iter().all(|&w| self.joined[v] != self.joined[w]))
     }
@@ -273,14 +245,12 @@ impl<'a> BroadPhase<'a> {
 
 geom::constants! {
     "contact.broad_phase",
-    /// Least cell size of the grid, m. In smaller cells each cluster would be found many times.
+    /// Least cell size of the grid. In smaller cells each cluster would be found many times.
     const CELL_M: f64 = 0.02;
 }
 
-/// Index of a vertex, triangle or edge, with its bounding box.
 type Boxed = (u32, Bounds);
 
-/// Bounding boxes of the members of a cluster, and of the whole cluster.
 struct Boxes {
     vertices: Vec<Boxed>,
     triangles: Vec<Boxed>,
@@ -304,8 +274,6 @@ impl Boxes {
     }
 }
 
-/// Selects those of `boxed` that overlap a box once both are widened by `half_m`. They are returned widened, in
-/// `scratch`.
 fn near<'s>(boxed: &[Boxed], into: &Bounds, half_m: f32, scratch: &'s mut Vec<Boxed>) -> &'s [Boxed] {
     let into = into.widened(half_m);
     let widened = boxed.iter().map(|(which, bounds)| (*which, bounds.widened(half_m)));
@@ -323,14 +291,13 @@ mod tests {
 
     const EDGE_M: f64 = 0.01;
 
-    /// Vertices of a pair, and `true` for a pair of edges.
+    /// `true` for a pair of edges.
     type Tagged = ([usize; 4], bool);
 
     fn tagged(primitives: Primitives) -> Tagged {
         (primitives.vertices(), matches!(primitives, Primitives::EdgeEdge(_)))
     }
 
-    /// Pairs nearer than `reach` that share no vertex, each with its distance, found by testing all pairs.
     fn all_within(x: &[V3], triangles: &[[usize; 3]], reach: f64) -> Vec<(Tagged, f64)> {
         let edges = edges_of(triangles);
         let edge_pairs = edges.pairs().iter().enumerate().flat_map(|(e, &[a, b])| {

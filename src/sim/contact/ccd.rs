@@ -12,27 +12,25 @@ geom::constants! {
     const ADVANCE_SHARE: f64 = 0.9;
     /// Least distance, as a share of the present one, of a pair that may come no nearer: a margin for rounding.
     const NEARLY: f64 = 0.999;
-    /// Distance below which two primitives touch, m. It is a twentieth of the distance to which the strongest contact
-    /// force presses layers.
+    /// Distance below which two primitives touch: a twentieth of the distance to which the strongest contact force
+    /// presses layers.
     pub const TOUCHING_M: f64 = 1e-6;
-    /// Greatest number of advances. A pair that takes more moves along so near that it may count as meeting.
+    /// Greatest number of advances. A pair that takes more moves so near that it may count as meeting.
     const MAX_ITERATIONS: usize = 40;
 }
 
 /// True if a pair comes nearer than a tenth of its distance on the path from `x` to `y`.
-#[must_use]
 pub fn collides(x: &[V3], y: &[V3], primitives: Primitives) -> bool {
     free_share(x, y, primitives, 0.0) < 1.0
 }
 
 /// Share of the path from `x` to `y` that a pair can take, its vertices moving uniformly. It ends where the distance
-/// falls below about a tenth of the one at the start, or below `least_m`. A pair that is nearer than `least_m` already
-/// may come no nearer. The method is additive conservative advancement: each advance is too short to use up the
-/// distance [Li, Kaufman, Jiang 2021].
+/// falls below about a tenth of that at the start, or below `least_m`. A pair nearer than `least_m` already may come no
+/// nearer. Additive conservative advancement: each advance is too short to use up the distance [Li, Kaufman, Jiang
+/// 2021].
 ///
 /// A pair that touches at the start is not limited. It would stop every step of the whole cloth, and crossings that
 /// result are drawn out again.
-#[must_use]
 pub fn free_share(x: &[V3], y: &[V3], primitives: Primitives, least_m: f64) -> f64 {
     let vertices = primitives.vertices();
     let mut places = vertices.map(|v| x[v]);

@@ -28,18 +28,15 @@ use crate::cloth::part::Part;
 use geom::V3;
 use linalg::Contact4;
 
-/// Parameters of self-contact.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ClothContactParams {
-    /// Distance below which layers repel each other, m.
+    /// Distance below which layers repel each other.
     pub thickness_m: f64,
-    /// Penalty stiffness, N/m3.
     pub stiffness_n_m3: f64,
-    /// Greatest distance up to which pairs are searched, m: twice the displacement of a vertex in a step.
+    /// Distance up to which pairs are searched: twice the displacement of a vertex in a step.
     pub reach_m: f64,
-    /// Force that draws a crossing out, N. It grows where it does not suffice.
+    /// Force that draws a crossing out. It grows where it does not suffice.
     pub release_n: f64,
-    /// Number of steps for which crossings are drawn out.
     pub release_steps: u32,
 }
 
@@ -51,40 +48,35 @@ impl Default for ClothContactParams {
 
 geom::constants! {
     "contact.cloth",
-    /// Squared sine of the angle between two edges below which the mollifier fades their contact out. Parallel edges
-    /// have no unique direction of contact.
+    /// Squared sine of the angle between two edges below which their contact fades out. Parallel edges have no unique
+    /// direction of contact.
     const MOLLIFIED_BELOW: f64 = 0.01;
-    /// Number of steps as long as the last one for which known pairs must suffice: at least, and when they are
-    /// searched.
+    /// Steps as long as the last one for which known pairs must suffice: at least, and when they are searched.
     const STEPS_AHEAD: [f64; 2] = [1.5, 3.0];
-    /// Least margin of the approach of a pair before it is searched again, and the margin when it is searched, m.
+    /// Least margin of the approach of a pair before it is searched again, and the margin when it is searched.
     const SLACK_M: [f64; 2] = [1e-3, 4e-3];
     /// Limit of the search distance over the size of the triangles. A vertex of a finer mesh then has no more pairs.
     /// Within twice that distance it would have four times as many.
     const REACH_SIZES: f64 = 0.7;
-    /// Least value of that limit, m. In a step two vertices approach each other by at most half of it.
+    /// Least value of that limit. In a step two vertices approach each other by at most half of it.
     const LEAST_REACH_M: f64 = 8e-3;
     /// Share of the distance to unknown pairs that a step may take. The rest is for its second-order correction.
     const FREE_SHARE: f64 = 0.9;
     /// Number of intervals of distance by which pairs are sorted.
     const SHELLS: f64 = 64.0;
-    /// Number of rounds in which vertices that would collide go a part of their path. In later rounds they stay where
-    /// they are.
+    /// Rounds in which vertices that would collide go a part of their path. Later they stay where they are.
     const SHARED_STOPS: usize = 6;
-    /// Greatest number of rounds in all.
     const MOST_STOPS: usize = 60;
-    /// Number of rounds in which near pairs are moved apart.
     const APART_ROUNDS: usize = 6;
-    /// Greatest increase of the distance of such a pair, as a share of the thickness.
+    /// Greatest increase of the distance of a pair that is moved apart, as a share of the thickness.
     const GROWN_SHARE: f64 = 0.25;
-    /// Distance below which primitives that are moved without regard to energy come no nearer, m.
+    /// Distance below which primitives that are moved without regard to energy come no nearer.
     const NEAREST_M: f64 = 1e-4;
-    /// Greatest thickness of a contact over the size of the triangles. Within flat cloth no primitive then repels its
+    /// Greatest thickness of a contact over the size of the triangles. In flat cloth no primitive then repels its
     /// neighbours.
     const THICKNESS_SIZES: f64 = 0.5;
 }
 
-/// Contact of a pair of primitives at some positions.
 struct Press {
     primitives: Primitives,
     vertices: [usize; 4],
@@ -92,19 +84,18 @@ struct Press {
     /// Unit vector from the second primitive to the first.
     normal: V3,
     push: Push,
-    /// Depth of the contact: thickness less distance, m.
+    /// Thickness less distance.
     depth_m: f64,
-    /// Penalty stiffness, N/m: that per area times the smallest rest area among the vertices.
+    /// Penalty stiffness per area times the smallest rest area among the vertices.
     stiffness_n_m: f64,
-    /// Mollifier [Li 2020], the factor `e/e0 (2 - e/e0)` of the contact of two nearly parallel edges, and else 1. `e`
-    /// is the squared norm of their cross product, and `e0` its threshold.
+    /// Mollifier [Li 2020] `e/e0 (2 - e/e0)` of two nearly parallel edges, else 1. `e` is the squared norm of their
+    /// cross product, and `e0` its threshold.
     mollifier: f64,
-    /// Gradient of the mollifier by the first edge and by the second, 1/m.
+    /// By the first edge and by the second, 1/m.
     mollifier_gradient: Option<[V3; 2]>,
 }
 
 impl Press {
-    /// Data of the contact for friction.
     fn pressed(self) -> Pressed {
         let Self { primitives, weights, normal, push, stiffness_n_m, mollifier, .. } = self;
         let force_n = mollifier * stiffness_n_m * push.force;
@@ -112,21 +103,18 @@ impl Press {
     }
 }
 
-/// Contact of one cloth with itself.
 pub struct ClothContact<'a> {
     params: ClothContactParams,
     /// `None` in a part of the cloth.
     broad_phase: Option<BroadPhase<'a>>,
     areas: Cow<'a, [f64]>,
-    /// Known pairs, sorted by intervals of their distance when they were found.
+    /// Sorted by intervals of their distance when they were found.
     pairs: Vec<Pair>,
-    /// Positions at which the pairs were found, m.
     found_at: Vec<V3>,
-    /// Positions at the last step, m.
     last: Vec<V3>,
-    /// Motion from the positions at which pairs were found to those of the last step.
+    /// Motion between `found_at` and `last`.
     made: Option<Motion>,
-    /// Greatest approach from the last step before unknown pairs could meet, m.
+    /// Greatest approach from the last step before unknown pairs could meet.
     room_m: f64,
     untangling: Untangling,
     /// `None` while friction is off.
@@ -134,8 +122,7 @@ pub struct ClothContact<'a> {
 }
 
 impl<'a> ClothContact<'a> {
-    /// Sets up self-contact of the triangles of a cloth; `areas` are the rest areas of the vertices, m2.
-    #[must_use]
+    /// `areas` are the rest areas of the vertices, m2.
     pub fn new(params: ClothContactParams, triangles: &'a [[usize; 3]], areas: impl Into<Cow<'a, [f64]>>) -> Self {
         let areas = areas.into();
         let size = (areas.iter().sum::<f64>() / areas.len().max(1) as f64).sqrt();
@@ -154,23 +141,18 @@ impl<'a> ClothContact<'a> {
         }
     }
 
-    /// Switches friction between layers on, with a coefficient for each vertex. Anchors are set at the present
-    /// position.
     pub fn set_friction(&mut self, coefficients: impl Iterator<Item = f64>) {
         self.rub = Some(Rub::new(coefficients.collect()));
     }
 
-    /// Makes friction hold layers on each other from now on, whatever the force.
     pub fn hold_fast(&mut self) {
         self.rub.iter_mut().for_each(Rub::hold_fast);
     }
 
-    /// Updates the friction anchors after a step to `x`: those of contacts that have slid are dragged along.
     pub fn drag_anchors(&mut self, x: &[V3]) {
         self.rub.iter_mut().for_each(|rub| rub.end(x));
     }
 
-    /// Takes over the friction anchors of a part of the cloth.
     pub fn take_anchors(&mut self, part: &Part, contact: &ClothContact) {
         if let (Some(rub), Some(of_part)) = (&mut self.rub, &contact.rub) {
             rub.take(of_part, |primitives| primitives.renamed(|vertices| Some(vertices.map(|v| part.vertices[v]))));
@@ -178,7 +160,6 @@ impl<'a> ClothContact<'a> {
     }
 
     /// Treats each `sewn` pair as one vertex, and leaves crossings alone: for cloth that is being sewn.
-    #[must_use]
     pub fn but_near(mut self, sewn: impl Iterator<Item = [usize; 2]>) -> Self {
         if let Some(broad_phase) = &mut self.broad_phase {
             broad_phase.join(sewn);
@@ -187,27 +168,24 @@ impl<'a> ClothContact<'a> {
         self
     }
 
-    /// True if nothing crosses, and nothing has come free of a crossing recently.
-    #[must_use]
+    /// True if nothing crosses, or has come free of a crossing recently.
     pub fn is_untangled(&self) -> bool {
         self.untangling.is_empty() && !self.untangling.is_fresh()
     }
 
-    /// Gives contacts that are still growing their full thickness. Returns `true` if there were any: then the cloth was
-    /// not at rest.
+    /// Gives contacts that are still growing their full thickness. Returns `true` if there were any: the cloth was not
+    /// at rest.
     pub fn ripen(&mut self) -> bool {
         self.untangling.ripen()
     }
 
-    /// Vertices of the pairs that have a `free` vertex.
     pub fn partners<'s>(&'s self, free: &'s [bool]) -> impl Iterator<Item = usize> + 's {
         let vertices = self.pairs.iter().map(|pair| pair.primitives.vertices());
         vertices.filter(|vertices| vertices.iter().any(|&v| free[v])).flatten()
     }
 
-    /// Contact of a part of the cloth at `x`, with itself and with the rest. It knows the near pairs that were found
-    /// already, and searches no others.
-    #[must_use]
+    /// Contact of a part of the cloth with itself and with the rest. It knows the near pairs found already, and
+    /// searches no others.
     pub fn part<'p>(&self, part: &Part, x: &[V3]) -> ClothContact<'p> {
         let renamed =
             |pair: &Pair| Some(Pair { primitives: pair.primitives.renamed(|vertices| part.names(vertices))?, ..*pair });
@@ -225,9 +203,8 @@ impl<'a> ClothContact<'a> {
         }
     }
 
-    /// Updates the contact for the positions after a step. It searches near pairs again where the cloth has moved so
-    /// far, or folded so sharply, that the next step could miss one. It also finds the way out of crossings, and begins
-    /// a step of friction.
+    /// Updates the contact after a step. Searches near pairs again where the cloth has moved so far, or folded so
+    /// sharply, that the next step could miss one. Finds the way out of crossings, and begins a step of friction.
     pub fn update(&mut self, x: &[V3]) {
         self.look(x);
         if let Some(mut rub) = self.rub.take() {
@@ -236,7 +213,6 @@ impl<'a> ClothContact<'a> {
         }
     }
 
-    /// Updates known pairs and crossings for the positions `x`.
     fn look(&mut self, x: &[V3]) {
         self.untangling.grow();
         let Some(mut broad_phase) = self.broad_phase.take() else {
@@ -276,31 +252,27 @@ impl<'a> ClothContact<'a> {
         broad_phase.room_m([(made, 1.0), (step, STEPS_AHEAD[0])]) >= self.params.thickness_m
     }
 
-    /// True if the cloth at `x` may cross itself. It may if it did before, if it touched at the last step, or if others
-    /// moved it farther than known pairs reach. Pairs that are near and do not touch cannot have passed.
+    /// True if the cloth crossed itself before, touched at the last step, or was moved farther than known pairs reach.
+    /// Pairs that are near and do not touch cannot have passed.
     fn may_cross(&self, broad_phase: &BroadPhase, x: &[V3], made: Option<&Motion>) -> bool {
         let is_known = |made| 2.0 * farthest(x, &self.last) < self.room_m || broad_phase.room_m([(made, 1.0)]) > 0.0;
         !made.is_some_and(is_known) || !self.untangling.is_empty() || self.touches()
     }
 
-    /// True if primitives of the cloth touched at the last [`ClothContact::update`], and so may pass each other in the
-    /// next step.
-    #[must_use]
+    /// True if primitives touched at the last [`ClothContact::update`], and so may pass each other in the next step.
     pub fn touches(&self) -> bool {
         let touches = |primitives| ClosestPoints::of(&self.last, primitives).gap.norm() < ccd::TOUCHING_M;
         self.near([&self.last], ccd::TOUCHING_M).any(touches)
     }
 
-    /// Greatest displacement of each vertex in any direction from the last [`ClothContact::update`], m. Beyond it, near
+    /// Greatest displacement of each vertex in any direction from the last [`ClothContact::update`]. Beyond it, near
     /// pairs could be unknown.
-    #[must_use]
     pub fn free_path_m(&self) -> f64 {
         0.5 * FREE_SHARE * self.room_m
     }
 
     /// Share of these displacements that the vertices may go for the same reason. A common motion of many vertices does
     /// not count.
-    #[must_use]
     pub fn free_share(&self, displacements: &[V3]) -> f64 {
         let share = self.free_path_m() / longest_m(displacements);
         match (&self.broad_phase, &self.made) {
@@ -311,7 +283,6 @@ impl<'a> ClothContact<'a> {
         }
     }
 
-    /// True if no unknown pair can meet at `x`.
     fn is_known(&self, x: &[V3]) -> bool {
         2.0 * farthest(x, &self.last) < self.room_m
             || self.broad_phase.as_ref().is_some_and(|broad_phase| {
@@ -320,7 +291,6 @@ impl<'a> ClothContact<'a> {
             })
     }
 
-    /// Searches near pairs at `x`, for steps like the last.
     fn seek(&mut self, broad_phase: &mut BroadPhase, x: &[V3], step: Option<&Motion>) {
         let ClothContactParams { thickness_m, reach_m: most_m, .. } = self.params;
         let [least_steps, steps] = STEPS_AHEAD;
@@ -354,7 +324,7 @@ impl<'a> ClothContact<'a> {
         self.room_m = broad_phase.room_m([]);
     }
 
-    /// Pairs that can be nearer than `within_m` at any of some positions, or on the paths between them.
+    /// Pairs that can be nearer than `within_m` at any of `places`, or on the paths between them.
     fn near<const N: usize>(&self, places: [&[V3]; N], within_m: f64) -> impl Iterator<Item = Primitives> {
         let moved = places.map(|x| differences(x, &self.found_at));
         let most_m = moved.iter().map(|d| longest_m(d)).fold(0.0, f64::max);
@@ -368,14 +338,12 @@ impl<'a> ClothContact<'a> {
         self.pairs[..nearest].iter().filter(is_near).map(|pair| pair.primitives)
     }
 
-    /// True if the cloth would pass through itself on the straight path from the last step to `x`.
     fn is_barred(&self, x: &[V3]) -> bool {
         !self.is_known(x) || self.near([x, &self.last], 0.0).any(|primitives| ccd::collides(&self.last, x, primitives))
     }
 
     /// Moves vertices from their positions at the last [`ClothContact::update`] towards `x`, and stops each before it
-    /// collides. It is for cloth that is moved without regard to energy. Returns the number of vertices that had to
-    /// stop.
+    /// collides. For cloth that is moved without regard to energy. Returns the number of vertices that had to stop.
     pub fn stop(&self, x: &mut [V3]) -> usize {
         let mut shares = vec![1.0_f64; x.len()];
         let goals = x.to_vec();
@@ -400,18 +368,15 @@ impl<'a> ClothContact<'a> {
         shares.iter().filter(|share| **share < 1.0).count()
     }
 
-    /// Moves vertices at `x` so that near pairs keep their side. They also regain the distance that they had at the
-    /// last [`ClothContact::update`], or a little more of it up to the thickness. Each vertex moves by the mean of what
-    /// its pairs ask for, in several rounds.
+    /// Moves vertices so that near pairs keep their side, and regain the distance of the last [`ClothContact::update`],
+    /// or a little more up to the thickness. Each vertex moves by the mean of what its pairs ask for, in several
+    /// rounds.
     pub fn keep_apart(&self, x: &mut [V3]) {
         struct Sided {
             vertices: [usize; 4],
             weights: [f64; 4],
-            /// Unit vector from the second primitive to the first.
             normal: V3,
-            /// Distance that the pair is to have, m.
             wanted_m: f64,
-            /// Sum of the squared weights.
             norm: f64,
         }
         let sided = |primitives: Primitives| {
@@ -448,9 +413,7 @@ impl<'a> ClothContact<'a> {
         }
     }
 
-    /// Displacement that would free each vertex at `x` from its contacts, the mean over them; `None` for a vertex
-    /// without contact.
-    #[must_use]
+    /// Mean displacement that would free each vertex from its contacts; `None` without contact.
     pub fn ways_out(&self, x: &[V3]) -> Vec<Option<V3>> {
         let mut sums = vec![(V3::zeros(), 0.0); x.len()];
         for Press { vertices, weights, normal, depth_m, mollifier, .. } in self.presses(x) {
@@ -464,7 +427,7 @@ impl<'a> ClothContact<'a> {
         sums.into_iter().map(|(sum, n)| (n > 0.0).then(|| sum / n)).collect()
     }
 
-    /// Contact of a pair at `x`; `None` where it does not touch.
+    /// `None` where the pair does not touch.
     fn press(&self, x: &[V3], primitives: Primitives) -> Option<Press> {
         let vertices = primitives.vertices();
         let nearest = ClosestPoints::of(x, primitives);
@@ -500,27 +463,23 @@ impl<'a> ClothContact<'a> {
         Some(press)
     }
 
-    /// All contacts at `x`.
     fn presses<'s>(&'s self, x: &'s [V3]) -> impl Iterator<Item = Press> + 's {
         self.near([x], self.params.thickness_m).filter_map(|primitives| self.press(x, primitives))
     }
 
-    /// Contact energy, J. It is infinite where the cloth would pass through itself on the path from the last step, so
-    /// that a line search rejects it.
-    #[must_use]
+    /// J. Infinite where the cloth would pass through itself on the path from the last step, so that a line search
+    /// rejects it.
     pub fn energy(&self, x: &[V3]) -> f64 {
         if self.is_barred(x) { f64::INFINITY } else { self.pressed_energy(x) }
     }
 
-    /// Contact energy, J, whether or not the cloth would pass through itself.
-    #[must_use]
+    /// J, whether or not the cloth would pass through itself.
     pub fn pressed_energy(&self, x: &[V3]) -> f64 {
         let pressed = |press: Press| press.stiffness_n_m * press.mollifier * press.push.energy;
         let rubbed_j = self.rub.as_ref().map_or(0.0, |rub| rub.energy(x));
         self.presses(x).map(pressed).sum::<f64>() + self.untangling.energy(x) + rubbed_j
     }
 
-    /// Adds the contact forces, N, and returns the stiffness.
     pub fn assemble(&self, x: &[V3], forces: &mut [V3]) -> Vec<Contact4> {
         let mut contacts = Vec::new();
         for press in self.presses(x) {
@@ -545,17 +504,14 @@ impl<'a> ClothContact<'a> {
     }
 }
 
-/// Index of the interval into which a distance falls.
 fn shell(distance_m: f64, reach_m: f64) -> u8 {
     (SHELLS * distance_m / reach_m) as u8
 }
 
-/// Displacement of each vertex from earlier positions, m.
 fn differences(x: &[V3], from: &[V3]) -> Vec<V3> {
     x.iter().zip(from).map(|(p, q)| p - q).collect()
 }
 
-/// Greatest displacement of a vertex from earlier positions, m.
 fn farthest(x: &[V3], from: &[V3]) -> f64 {
     x.iter().zip(from).map(|(p, q)| (p - q).norm_squared()).fold(0.0, f64::max).sqrt()
 }

@@ -2,25 +2,20 @@
 
 use geom::{V3, triangle};
 
-/// Vertices of a pair of primitives: `[vertex, triangle]` or `[edge, edge]`.
+/// Vertices of a pair: `[vertex, triangle]` or `[edge, edge]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Primitives {
-    /// A vertex, then the corners of a triangle.
     VertexTriangle([usize; 4]),
-    /// The ends of an edge, then those of another.
     EdgeEdge([usize; 4]),
 }
 
 impl Primitives {
-    /// Returns all vertices of the pair.
-    #[must_use]
     pub fn vertices(self) -> [usize; 4] {
         match self {
             Self::VertexTriangle(vertices) | Self::EdgeEdge(vertices) => vertices,
         }
     }
 
-    /// Returns the pairs of vertices with one vertex of either primitive.
     pub fn across(self) -> impl Iterator<Item = [usize; 2]> {
         let vertices = self.vertices();
         let split = match self {
@@ -30,7 +25,7 @@ impl Primitives {
         (0..split).flat_map(move |k| (split..4).map(move |l| [vertices[k], vertices[l]]))
     }
 
-    /// Returns the same pair with other vertex indices; `None` where `names` has none for them.
+    /// `None` where `names` has none for the vertices.
     pub fn renamed(self, names: impl Fn([usize; 4]) -> Option<[usize; 4]>) -> Option<Self> {
         match self {
             Self::VertexTriangle(vertices) => names(vertices).map(Self::VertexTriangle),
@@ -39,24 +34,20 @@ impl Primitives {
     }
 }
 
-/// Closest points of a pair: the vector from the second to the first is `sum w_k x_k`.
+/// The vector from the second to the first is `sum w_k x_k`.
 #[derive(Clone, Copy, Debug)]
 pub struct ClosestPoints {
-    /// Weights of the vertices; they sum to zero.
+    /// They sum to zero.
     pub weights: [f64; 4],
-    /// Vector from the closest point of the second primitive to that of the first, m.
+    /// From the closest point of the second primitive to that of the first.
     pub gap: V3,
 }
 
 impl ClosestPoints {
-    /// Closest points of a pair in cloth at `x`.
-    #[must_use]
     pub fn of(x: &[V3], primitives: Primitives) -> Self {
         Self::at(&primitives.vertices().map(|v| x[v]), primitives)
     }
 
-    /// Closest points of a pair whose vertices are at `corners`.
-    #[must_use]
     pub fn at(corners: &[V3; 4], primitives: Primitives) -> Self {
         let weights = match primitives {
             Primitives::VertexTriangle(_) => {
@@ -70,7 +61,6 @@ impl ClosestPoints {
     }
 }
 
-/// Weights of the closest points of two edges.
 fn edge_edge([a, b, c, d]: &[V3; 4]) -> [f64; 4] {
     let (u, w, r) = (b - a, d - c, a - c);
     let (uu, ww, uw) = (u.norm_squared(), w.norm_squared(), u.dot(&w));
@@ -86,9 +76,7 @@ fn edge_edge([a, b, c, d]: &[V3; 4]) -> [f64; 4] {
     [1.0 - s, s, t - 1.0, -t]
 }
 
-/// Squared norm of the cross product of two edges, and its gradient by the first and by the second. It vanishes where
-/// they are parallel.
-#[must_use]
+/// Squared norm of the cross product, and its gradient by the first and by the second. Zero where they are parallel.
 pub fn cross_squared(u: &V3, w: &V3) -> (f64, [V3; 2]) {
     let (uu, ww, uw) = (u.norm_squared(), w.norm_squared(), u.dot(w));
     (u.cross(w).norm_squared(), [(u * ww - w * uw) * 2.0, (w * uu - u * uw) * 2.0])

@@ -4,38 +4,33 @@ use geom::V3;
 
 geom::constants! {
     "contact.friction",
-    /// Stiffness of a sliding contact in the linear system, as a share of the sticking one. It keeps the system
-    /// regular.
+    /// Stiffness of a sliding contact in the linear system, as a share of the sticking one. Keeps the system regular.
     const SLIDING_STIFFNESS_SHARE: f64 = 0.1;
 }
 
-/// Friction of a contact at a slip.
 #[derive(Clone, Copy, Debug)]
 pub struct Friction {
-    /// Energy, J: `k s^2 / 2` for a slip `s` up to `f_max / k`, linear beyond.
+    /// `k s^2 / 2` for a slip `s` up to `f_max / k`, linear beyond.
     pub energy_j: f64,
-    /// Tangential force, opposed to the slip, N.
+    /// Tangential, opposed to the slip, N.
     pub force: V3,
-    /// Tangential stiffness, N/m.
     pub stiffness_n_m: f64,
-    /// Slip from the anchor once the anchor has been dragged along, m.
+    /// Slip from the anchor once it has been dragged along.
     pub held: V3,
 }
 
 /// Tangential spring of a contact with a Coulomb limit.
 #[derive(Clone, Copy, Debug)]
 pub struct Hold {
-    /// Coulomb limit `f_max`, N.
+    /// Coulomb limit `f_max`.
     pub limit_n: f64,
-    /// Stiffness `k` while the contact sticks, N/m.
+    /// Stiffness `k` while the contact sticks.
     pub stiffness_n_m: f64,
     /// True if the contact sticks whatever the force.
     pub is_fast: bool,
 }
 
 impl Hold {
-    /// Friction at a tangential slip from the anchor, m.
-    #[must_use]
     pub fn at(&self, slip: V3) -> Friction {
         let Self { limit_n, stiffness_n_m: k, is_fast } = *self;
         let length = slip.norm();
@@ -52,8 +47,6 @@ impl Hold {
     }
 }
 
-/// Tangential part of a vector: the vector without its part along a unit normal.
-#[must_use]
 pub fn across(vector: &V3, normal: &V3) -> V3 {
     vector - normal * normal.dot(vector)
 }

@@ -4,16 +4,14 @@ use super::bounds::Bounds;
 use geom::V3;
 use linalg::rows::sorted_by_row;
 
-/// Boxes sorted by the grid cell of their centre.
 pub struct BoxGrid {
     cell_m: f64,
     low: V3,
     size: [usize; 3],
-    /// Greatest half extent of a box along an axis, m.
     half_m: f64,
-    /// First box of each cell, and the number of boxes.
+    /// First box of each cell, then the number of boxes.
     starts: Vec<u32>,
-    /// Boxes in the order of the cells, so that a search reads memory sequentially.
+    /// In the order of the cells, so that a search reads memory sequentially.
     boxes: Vec<(Bounds, u32)>,
 }
 
@@ -26,8 +24,6 @@ geom::constants! {
 }
 
 impl BoxGrid {
-    /// Sorts the bounding boxes of point sets, each widened by `reach_m`, into cells of at least `cell_m`.
-    #[must_use]
     pub fn new<const N: usize>(x: &[V3], sets: &[[usize; N]], reach_m: f64, cell_m: f64) -> Self {
         let reach = V3::repeat(reach_m);
         let corners = |set: &[usize; N]| {
@@ -52,8 +48,7 @@ impl BoxGrid {
         grid
     }
 
-    /// Returns the sets whose boxes overlap the box of some points, in ascending order, in `found`. Rounding may add a
-    /// few others.
+    /// Sets whose boxes overlap that of the points, ascending. Rounding may add a few others.
     pub fn near<'f, const N: usize>(&self, points: [&V3; N], found: &'f mut Vec<usize>) -> &'f [usize] {
         let (low, high) = points.iter().fold((*points[0], *points[0]), |(low, high), p| (low.inf(p), high.sup(p)));
         let half = V3::repeat(self.half_m);
@@ -73,12 +68,10 @@ impl BoxGrid {
         found
     }
 
-    /// Index of a cell.
     fn number(&self, [i, j, k]: [usize; 3]) -> usize {
         i + self.size[0] * (j + self.size[1] * k)
     }
 
-    /// Cell of a point, or the nearest one.
     fn cell(&self, p: &V3) -> [usize; 3] {
         let local = (p - self.low) / self.cell_m;
         let index = |l: f64, n: usize| (l as usize).min(n - 1);

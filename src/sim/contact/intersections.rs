@@ -14,21 +14,16 @@ geom::constants! {
     /// Least sine of the angle between edge and pierced triangle in the contribution along the normal, which is
     /// inversely proportional to it.
     const LEAST_SLOPE: f64 = 0.2;
-    /// Number of times that crossing vertices are held back.
     const HALVINGS: usize = 6;
 }
 
-/// An edge that intersects a triangle.
 #[derive(Clone, Copy, Debug)]
 pub struct Intersection {
-    /// Ends of the edge.
     pub edge: [usize; 2],
-    /// Corners of the triangle.
     pub triangle: [usize; 3],
 }
 
-/// Finds the intersections of edges with triangles with which they share no vertex.
-#[must_use]
+/// Edges and triangles share no vertex.
 pub fn intersections(x: &[V3], edges: &[[usize; 2]], triangles: &[[usize; 3]]) -> Vec<Intersection> {
     let length = edges.iter().map(|&[a, b]| (x[a] - x[b]).norm()).fold(0.0, f64::max);
     let grid = BoxGrid::new(x, triangles, 0.0, length.max(1e-6));
@@ -44,10 +39,8 @@ pub fn intersections(x: &[V3], edges: &[[usize; 2]], triangles: &[[usize; 3]]) -
     found
 }
 
-/// Moves a cloth from `x` towards `y` without making it intersect itself, each vertex as far as possible. Vertices at
-/// an intersection are held back by half, repeatedly. Of all positions tried, those with the fewest intersections are
-/// returned.
-#[must_use]
+/// Moves a cloth from `x` towards `y` as far as possible without making it intersect itself. Vertices at an
+/// intersection are held back by half, repeatedly. Returns the positions with the fewest intersections.
 pub fn held_apart(x: &[V3], y: &[V3], triangles: &[[usize; 3]]) -> Vec<V3> {
     let edges = edges_of(triangles);
     let mut shares = vec![1.0; x.len()];
@@ -72,7 +65,6 @@ pub fn held_apart(x: &[V3], y: &[V3], triangles: &[[usize; 3]]) -> Vec<V3> {
     best.1
 }
 
-/// True if the segment from `p` to `q` intersects a triangle.
 fn segment_hits(p: V3, q: V3, [a, b, c]: [V3; 3]) -> bool {
     let volume = |u: V3, v: V3, w: V3, z: V3| (v - u).cross(&(w - u)).dot(&(z - u));
     let (above, below) = (volume(a, b, c, p), volume(a, b, c, q));
@@ -83,15 +75,11 @@ fn segment_hits(p: V3, q: V3, [a, b, c]: [V3; 3]) -> bool {
     sides.iter().all(|s| *s > 0.0) || sides.iter().all(|s| *s < 0.0)
 }
 
-/// Opposite corners of the triangles at each edge.
 pub struct Wings {
-    /// Sorted by edge.
     corners: Vec<([usize; 2], usize)>,
 }
 
 impl Wings {
-    /// Collects the opposite corners at every edge of some triangles.
-    #[must_use]
     pub fn new(triangles: &[[usize; 3]]) -> Self {
         let sides = |&[a, b, c]: &[usize; 3]| [([a, b], c), ([b, c], a), ([c, a], b)];
         let sorted = |([a, b], c): ([usize; 2], usize)| ([a.min(b), a.max(b)], c);
@@ -100,7 +88,6 @@ impl Wings {
         Self { corners }
     }
 
-    /// Opposite corners at an edge.
     fn opposite(&self, [a, b]: [usize; 2]) -> impl Iterator<Item = usize> + '_ {
         let edge = [a.min(b), a.max(b)];
         let start = self.corners.partition_point(|(e, _)| *e < edge);
@@ -108,20 +95,19 @@ impl Wings {
     }
 }
 
-/// Force that shortens the line of intersection, on the five vertices of one crossing of an edge and a triangle.
+/// Force that shortens the line of intersection, on the vertices of one crossing of an edge and a triangle.
 #[derive(Clone, Copy, Debug)]
 pub struct Release {
-    /// The edge, then the triangle that it pierces.
+    /// Edge, then the triangle that it pierces.
     pub vertices: [usize; 5],
-    /// Weights of the edge's ends, and of the triangle's corners with the opposite sign.
+    /// Edge and, with the opposite sign, triangle.
     pub weights: [f64; 5],
-    /// Rate at which the line shortens as the edge moves against the triangle, without unit; its norm is at most 1.
+    /// Rate at which the line shortens as the edge moves against the triangle, without unit; at most 1.
     pub fall: V3,
 }
 
 impl Release {
-    /// Force of one crossing; `None` where the line is straight there, and no motion shortens it.
-    #[must_use]
+    /// `None` where the line is straight, and no motion shortens it.
     pub fn of(x: &[V3], wings: &Wings, crossing: &Intersection) -> Option<Self> {
         let ([p, q], [a, b, c]) = (crossing.edge, crossing.triangle);
         let along = (x[q] - x[p]).try_normalize(0.0)?;
@@ -154,14 +140,11 @@ impl Release {
         })
     }
 
-    /// Potential that decreases as the line shortens, m. It is linear in the positions, by its gradient at the start of
-    /// the step.
-    #[must_use]
+    /// Decreases as the line shortens, m. Linear in the positions, by its gradient at the start of the step.
     pub fn potential(&self, x: &[V3]) -> f64 {
         -(0..5).map(|k| self.weights[k] * self.fall.dot(&x[self.vertices[k]])).sum::<f64>()
     }
 
-    /// Adds a force of `force_n` newtons along the gradient.
     pub fn add_force(&self, force_n: f64, forces: &mut [V3]) {
         for k in 0..5 {
             forces[self.vertices[k]] += self.fall * (force_n * self.weights[k]);
@@ -169,7 +152,6 @@ impl Release {
     }
 
     /// Stiffness along the force, which limits a step to about the range in which the force is valid.
-    #[must_use]
     pub fn couplings(&self, stiffness: f64) -> [Contact4; 2] {
         let normal = self.fall.try_normalize(0.0).unwrap_or_default();
         let [p, q, a, b, c] = self.vertices;
@@ -181,8 +163,6 @@ impl Release {
     }
 }
 
-/// Distinct edges of some triangles.
-#[must_use]
 pub fn edges_of(triangles: &[[usize; 3]]) -> PairList {
     PairList::new(triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]))
 }

@@ -25,7 +25,6 @@ pub use intersections::{Intersection, intersections};
 pub use penalty::ContactParams;
 pub use skin::Skin;
 
-/// Collects the constants of contact that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
     [
         barrier::CONSTANTS,

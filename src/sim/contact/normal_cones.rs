@@ -12,61 +12,47 @@ geom::constants! {
     "contact.normal_cones",
     /// Least distance between the centres of clusters, in edges.
     const APART: usize = 3;
-    /// Half angle of the cone in which the normals of flat cloth must lie when it is searched, rad. Until the next
-    /// search they may lie in the wider cone of `STILL_FLAT_RAD`.
+    /// Half angle of the cone in which the normals of flat cloth must lie when it is searched. Until the next search
+    /// they may lie in that of `STILL_FLAT_RAD`.
     const FLAT_RAD: f64 = 0.8;
-    /// Half angle of the cone that they may not leave before the next search, rad.
     const STILL_FLAT_RAD: f64 = 1.2;
 }
 
-/// The clusters of a cloth.
 pub struct Clusters {
-    /// Members of each cluster: vertices, triangles and edges, each in one cluster only.
     pub members: Vec<Members>,
-    /// Triangles at the vertices of each cluster.
     around: Vec<Vec<usize>>,
     is_at_rim: Vec<bool>,
-    /// Connected pairs of clusters: those that an edge joins, or two edges by way of another cluster, and each cluster
-    /// with itself.
+    /// Clusters that an edge joins, or two edges by way of another cluster, and each with itself.
     joined: PairList,
-    /// Clusters between those of each pair.
     between: Vec<Vec<usize>>,
-    /// True for each pair that was flat at the last search.
     is_flat: Vec<bool>,
 }
 
-/// Members of a cluster.
 #[derive(Clone, Debug, Default)]
 pub struct Members {
-    /// Vertices; they belong to no other cluster.
     pub vertices: Vec<usize>,
-    /// Triangles whose first vertex is in the cluster.
+    /// First vertex is in the cluster.
     pub triangles: Vec<usize>,
-    /// Edges whose first vertex is in the cluster.
+    /// First vertex is in the cluster.
     pub edges: Vec<usize>,
-    /// All vertices of these, in ascending order.
+    /// Vertices of all these, ascending.
     pub corners: Vec<usize>,
 }
 
-/// Motion of the clusters of a cloth: a mean displacement and the greatest deviation from it.
+/// Mean displacement of each cluster and the greatest deviation from it.
 pub struct Motion {
-    /// Mean displacement of the corners of each cluster, m.
     means: Vec<V3>,
-    /// Greatest deviation of a corner from that, m.
     strays_m: Vec<f64>,
-    /// Longest displacement of a vertex, m.
     pub farthest_m: f64,
 }
 
 impl Motion {
-    /// Greatest approach of any part of one cluster to any part of another, m. Their common motion does not count.
-    #[must_use]
+    /// Greatest approach of any part of one cluster to any of another. Their common motion does not count.
     pub fn closing_m(&self, [p, q]: [usize; 2]) -> f64 {
         (self.means[p] - self.means[q]).norm() + self.strays_m[p] + self.strays_m[q]
     }
 }
 
-/// Cone of the normals of a cluster.
 #[derive(Clone, Copy)]
 struct Cone {
     axis: V3,
@@ -75,15 +61,12 @@ struct Cone {
 }
 
 impl Cone {
-    /// True if the normals of both lie within a cone of the angle for which they were made.
     fn is_flat_with(&self, other: &Self) -> bool {
         self.axis.dot(&other.axis) >= self.nearest.max(other.nearest)
     }
 }
 
 impl Clusters {
-    /// Divides a cloth of `vertices` vertices into clusters.
-    #[must_use]
     pub fn new(vertices: usize, triangles: &[[usize; 3]], edges: &PairList) -> Self {
         let (cluster_of, count) = edges.divide(vertices, APART);
         let mut members = vec![Members::default(); count];
@@ -123,7 +106,6 @@ impl Clusters {
         Self { members, around, is_at_rim, is_flat: vec![false; between.len()], joined, between }
     }
 
-    /// Determines which connected clusters are flat together at `x`.
     pub fn look(&mut self, x: &[V3], triangles: &[[usize; 3]]) {
         let cones = self.cones(x, triangles, FLAT_RAD);
         let is_flat = |(&[a, b], between): (&[usize; 2], &Vec<usize>)| {
@@ -132,28 +114,21 @@ impl Clusters {
         self.is_flat = self.joined.pairs().iter().zip(&self.between).map(is_flat).collect();
     }
 
-    /// Pairs of clusters that were flat together, in ascending order.
     pub fn flat(&self) -> impl Iterator<Item = [usize; 2]> {
         self.joined.pairs().iter().zip(&self.is_flat).filter(|(_, is_flat)| **is_flat).map(|(pair, _)| *pair)
     }
 
-    /// True if all pairs that were flat at the last search are still flat at `x`.
-    #[must_use]
     pub fn stay_flat(&self, x: &[V3], triangles: &[[usize; 3]]) -> bool {
         let cones = self.cones(x, triangles, STILL_FLAT_RAD);
         let mut pairs = self.joined.pairs().iter().zip(&self.between).zip(&self.is_flat);
         pairs.all(|((&pair, between), was_flat)| !was_flat || are_flat(&cones, pair, between))
     }
 
-    /// Motion of clusters at rest: none.
-    #[must_use]
     pub fn rest(&self) -> Motion {
         let count = self.members.len();
         Motion { means: vec![V3::zeros(); count], strays_m: vec![0.0; count], farthest_m: 0.0 }
     }
 
-    /// Motion of the clusters for some displacements of the vertices, m.
-    #[must_use]
     pub fn motion(&self, displacements: &[V3]) -> Motion {
         let mean = |members: &Members| {
             members.corners.iter().map(|&v| displacements[v]).sum::<V3>() / members.corners.len() as f64
@@ -166,7 +141,6 @@ impl Clusters {
         Motion { means, strays_m, farthest_m: longest_m(displacements) }
     }
 
-    /// Normal cones of all clusters, for flatness within the half angle `half_rad`.
     fn cones(&self, x: &[V3], triangles: &[[usize; 3]], half_rad: f64) -> Vec<Cone> {
         let normal =
             |&[a, b, c]: &[usize; 3]| (x[b] - x[a]).cross(&(x[c] - x[a])).try_normalize(0.0).unwrap_or_default();
@@ -183,14 +157,13 @@ impl Clusters {
     }
 }
 
-/// True if two clusters are flat with each other and with all between them.
 fn are_flat(cones: &[Cone], [a, b]: [usize; 2], between: &[usize]) -> bool {
     let [one, other] = [&cones[a], &cones[b]];
     one.is_flat_with(other) && between.iter().all(|&c| one.is_flat_with(&cones[c]) && cones[c].is_flat_with(other))
 }
 
-/// Connected pairs of `count` clusters that `links` join, directly, by way of a third, or each with itself. Then, for
-/// the pairs that no link joins, the clusters between.
+/// Pairs that `links` join, directly, by way of a third, or each with itself. Then, for those that no link joins, the
+/// clusters between.
 fn hanging_together(count: usize, links: impl Iterator<Item = [usize; 2]>) -> (PairList, Vec<Vec<usize>>) {
     let links = PairList::new(links.chain((0..count).map(|c| [c, c])));
     let mut next_to = vec![Vec::new(); count];
@@ -211,8 +184,6 @@ fn hanging_together(count: usize, links: impl Iterator<Item = [usize; 2]>) -> (P
     (joined, between)
 }
 
-/// Length of the longest vector, m.
-#[must_use]
 pub fn longest_m(vectors: &[V3]) -> f64 {
     vectors.iter().map(V3::norm_squared).fold(0.0, f64::max).sqrt()
 }

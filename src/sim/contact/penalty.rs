@@ -1,21 +1,20 @@
 //! Penalty law of contact: pressure as a function of depth.
 
-/// Parameters of body contact.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ContactParams {
-    /// Distance from the skin below which cloth is repelled, m.
+    /// Distance from the skin below which cloth is repelled.
     pub offset_m: f64,
-    /// Penalty stiffness `k`, N/m3 (pressure per depth).
+    /// Penalty stiffness `k` (pressure per depth).
     pub stiffness_n_m3: f64,
-    /// Depth `l` over which the pressure of a light contact grows by a factor e, m.
+    /// Depth `l` over which the pressure of a light contact grows by a factor e.
     pub softness_m: f64,
-    /// Scale `p0` of the pressure of a light contact, N/m2: about the weight of cloth.
+    /// Scale `p0` of the pressure of a light contact: about the weight of cloth.
     pub light_n_m2: f64,
-    /// Greatest slip of a sticking contact, m. It limits the tangential stiffness of light contacts.
+    /// Greatest slip of a sticking contact. It limits the tangential stiffness of light contacts.
     pub slip_m: f64,
     /// Greatest tangential stiffness of a sticking contact over the penalty stiffness.
     pub tangential_share: f64,
-    /// Distance from the skin to which a point found inside is moved, m.
+    /// Distance from the skin to which a point found inside is moved.
     pub clearance_m: f64,
 }
 
@@ -33,31 +32,24 @@ impl Default for ContactParams {
     }
 }
 
-/// Contact potential at a depth and its derivatives.
 #[derive(Clone, Copy, Debug)]
 pub struct Push {
-    /// Energy per area, N/m.
     pub energy_n_m: f64,
-    /// Pressure, N/m2.
     pub pressure_n_m2: f64,
-    /// Slope of the pressure, N/m3.
+    /// Slope of the pressure.
     pub stiffness_n_m3: f64,
 }
 
 impl ContactParams {
-    /// Contact potential at the depth `d`, m, by `push`.
-    #[must_use]
     pub fn push(&self, depth: f64) -> Push {
         push(depth, self.softness_m, self.light_n_m2, self.stiffness_n_m3)
     }
 }
 
-/// Contact potential at the depth `d`, m. The pressure is `p0 (exp(d / l) - 1)` until its slope is `k`, and then rises
-/// with the slope `k`.
+/// At the depth `d`, m, the pressure is `p0 (exp(d / l) - 1)` until its slope is `k`, and then rises with that slope.
 ///
-/// Light contacts are soft thereby: a hard contact of a few pascals would be lost by a motion of a micrometre, and found
-/// again by the next.
-#[must_use]
+/// Light contacts are soft thereby: a hard contact of a few pascals would be lost by a motion of a micrometre, and
+/// found again by the next.
 pub fn push(depth: f64, l: f64, p0: f64, k: f64) -> Push {
     let knee = l * (k * l / p0).max(1.0).ln();
     let soft = depth.min(knee);

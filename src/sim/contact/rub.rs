@@ -15,54 +15,46 @@ use linalg::Contact4;
 
 geom::constants! {
     "contact.rub",
-    /// Greatest slip of two layers that stick, m. It limits the tangential stiffness of light contacts.
+    /// Greatest slip of two layers that stick. It limits the tangential stiffness of light contacts.
     const SLIP_M: f64 = 2e-4;
     /// Greatest tangential stiffness of a sticking contact over the stiffness of the normal contact.
     const TANGENTIAL_SHARE: f64 = 0.3;
 }
 
-/// Two primitives in contact.
 pub struct Pressed {
-    /// A vertex and a triangle, or two edges.
     pub primitives: Primitives,
-    /// Weights of the vertices at the closest points; they sum to zero.
+    /// At the closest points; they sum to zero.
     pub weights: [f64; 4],
     /// Unit vector from the second primitive to the first.
     pub normal: V3,
-    /// Normal force, N.
     pub force_n: f64,
-    /// Penalty stiffness of the contact, without the barrier, N/m.
+    /// Penalty stiffness, without the barrier.
     pub stiffness_n_m: f64,
 }
 
-/// A contact at the start of a step.
 struct Touch {
     pressed: Pressed,
     hold: Hold,
-    /// Slip at the start of the step less the separation there, m. The slip at `x` is the tangential part of `sum w x`
+    /// Slip at the start of the step less the separation there. The slip at `x` is the tangential part of `sum w x`
     /// plus this.
     before: V3,
 }
 
 /// Friction between the layers of one cloth.
 pub struct Rub {
-    /// Friction coefficients of the vertices; that of a contact is the mean of two.
+    /// Per vertex; that of a contact is the mean of two.
     coefficients: Vec<f64>,
     is_fast: bool,
-    /// Slip of each touching pair from its anchor, m.
+    /// Slip of each touching pair from its anchor.
     held: BTreeMap<Primitives, V3>,
     touching: Vec<Touch>,
 }
 
 impl Rub {
-    /// Sets up friction with a coefficient for each vertex. Anchors are set at the present position.
-    #[must_use]
     pub fn new(coefficients: Vec<f64>) -> Self {
         Self { coefficients, is_fast: false, held: BTreeMap::new(), touching: Vec::new() }
     }
 
-    /// Friction of a part of the cloth.
-    #[must_use]
     pub fn part(&self, part: &Part) -> Self {
         let renamed = |primitives: Primitives| primitives.renamed(|vertices| part.names(vertices));
         let held = self.held.iter().filter_map(|(primitives, held)| Some((renamed(*primitives)?, *held)));
@@ -70,17 +62,15 @@ impl Rub {
         Self { coefficients, is_fast: self.is_fast, held: held.collect(), touching: Vec::new() }
     }
 
-    /// Takes over the slips of a part of the cloth. `renamed` maps its primitives to those of this cloth.
+    /// Takes over the slips of a part. `renamed` maps its primitives to those of this cloth.
     pub fn take(&mut self, part: &Self, renamed: impl Fn(Primitives) -> Option<Primitives>) {
         self.held.extend(part.held.iter().filter_map(|(primitives, held)| Some((renamed(*primitives)?, *held))));
     }
 
-    /// Makes friction hold everything from now on, whatever the force.
     pub fn hold_fast(&mut self) {
         self.is_fast = true;
     }
 
-    /// Begins a step from `x`, where the primitives `pressed` are in contact.
     pub fn begin(&mut self, x: &[V3], pressed: impl Iterator<Item = Pressed>) {
         self.touching.clear();
         for pressed in pressed {
@@ -106,13 +96,11 @@ impl Rub {
         }
     }
 
-    /// Friction energy at `x`, J.
-    #[must_use]
+    /// J.
     pub fn energy(&self, x: &[V3]) -> f64 {
         self.touching.iter().map(|touch| touch.friction(x).energy_j).sum()
     }
 
-    /// Adds the friction forces at `x`, N, and the stiffness.
     pub fn assemble(&self, x: &[V3], forces: &mut [V3], contacts: &mut Vec<Contact4>) {
         for touch in &self.touching {
             let Pressed { primitives, weights, normal, .. } = touch.pressed;
@@ -131,14 +119,12 @@ impl Rub {
 }
 
 impl Pressed {
-    /// Vector between the points that were closest at the start of the step, at the positions `x`, m.
     fn apart(&self, x: &[V3]) -> V3 {
         self.primitives.vertices().iter().zip(self.weights).map(|(&v, weight)| x[v] * weight).sum()
     }
 }
 
 impl Touch {
-    /// Tangential slip from the anchor at `x`, m.
     fn slip(&self, x: &[V3]) -> V3 {
         across(&(self.before + self.pressed.apart(x)), &self.pressed.normal)
     }

@@ -66,7 +66,6 @@ fn friction_forgets_how_deep_a_contact_was_before() {
     assert!((at_once - by_steps).norm() < 1e-9 * at_once.norm(), "{by_steps} for {at_once}");
 }
 
-/// A triangle, and another whose corner is at some height above it and points down.
 fn poking(height: f64) -> Vec<V3> {
     let sheet = [V3::new(-0.05, -0.05, 0.0), V3::new(0.05, -0.05, 0.0), V3::new(0.0, 0.08, 0.0)];
     let poking = [V3::zeros(), V3::new(0.03, 0.0, 0.04), V3::new(-0.03, 0.002, 0.04)];
@@ -112,7 +111,6 @@ fn the_grid_finds_all_boxes_within_reach_and_no_others() {
     }
 }
 
-/// Triangles of a large sheet and a small one.
 fn two_sheets() -> (Vec<V2>, Vec<V2>, Vec<[usize; 3]>) {
     let ((large, mut triangles), (small, others)) = (sheet(4, 4, 0.02), sheet(1, 1, 0.005));
     triangles.extend(others.iter().map(|t| t.map(|v| v + large.len())));

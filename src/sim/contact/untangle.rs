@@ -7,50 +7,42 @@ use linalg::Contact4;
 
 geom::constants! {
     "contact.untangle",
-    /// Number of steps without fewer crossings after which the force grows.
+    /// Steps without fewer crossings after which the force grows.
     const PATIENCE: u32 = 4;
-    /// Factor by which the force then grows.
     const GROWTH: f64 = 1.5;
-    /// Greatest growth of the force in all.
     const MOST_GROWTH: f64 = 100.0;
-    /// Number of steps over which the contact of a pair that has come free grows to its thickness.
+    /// Steps over which the contact of a pair that has come free grows to its thickness.
     const FRESH_STEPS: u32 = 20;
-    /// Displacement to which the stiffness of a releasing force limits a step, m.
+    /// Displacement to which the stiffness of a releasing force limits a step.
     const STEP_M: f64 = 2e-3;
 }
 
 /// Crossings of a cloth with itself. They have no inner and outer side: their edges and triangles pass each other
-/// freely until they have come apart, and forces draw them out. The forces grow while the number of crossings does not
-/// decrease, since the cloth may be under tension there.
+/// freely until they have come apart, and forces draw them out. The forces grow while the crossings do not decrease,
+/// since the cloth may be under tension there.
 ///
 /// A pair that comes free is far nearer than cloth that never crossed. With the full contact force at once it would be
 /// thrown through whatever is behind it, caught there, drawn out, and thrown again. So its contact starts thin, and
 /// grows.
 ///
-/// Crossings that remain after a number of steps are left: from then on everything that crosses may pass for good. At
-/// the edge of such a knot pairs would come free, be pushed back into it as soon as their contact has grown, and come
-/// free again for ever.
+/// Crossings that remain after a number of steps are left: from then on everything that crosses may pass for good. Else
+/// pairs at the edge of such a knot would come free, be pushed back, and come free again for ever.
 pub struct Untangling {
-    /// Opposite corners at each edge, once there has been a crossing.
     wings: Option<Wings>,
-    /// Pairs of a vertex of an edge and a vertex of a triangle that it crosses, in both orders, sorted.
+    /// Pairs of a vertex of an edge and one of a triangle that it crosses, in both orders, sorted.
     passing: Vec<[usize; 2]>,
-    /// Such pairs that have come free, with the number of steps since, sorted.
+    /// Such pairs that have come free, with the steps since, sorted.
     fresh: Vec<([usize; 2], u32)>,
     releases: Vec<Release>,
-    /// Force that draws a crossing out, at first and now, N.
+    /// Force that draws a crossing out, at first and now.
     force_n: [f64; 2],
-    /// Number of steps for which crossings are still drawn out.
     steps_left: u32,
-    /// True if crossings are left alone from the first.
     are_left_alone: bool,
-    /// Smallest number of crossings since there have been any, and the number of steps in which it has not decreased.
+    /// Smallest number of crossings since there have been any, and the steps in which it has not decreased.
     least: (usize, u32),
 }
 
 impl Untangling {
-    /// Starts without crossings. Those to come are drawn out by `force_n` newtons at first, for `steps` steps in all.
-    #[must_use]
     pub fn new(force_n: f64, steps: u32) -> Self {
         Self {
             wings: None,
@@ -64,35 +56,28 @@ impl Untangling {
         }
     }
 
-    /// Leaves crossings alone from now on.
     pub fn leave(&mut self) {
         self.are_left_alone = true;
     }
 
-    /// True if nothing crosses.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.passing.is_empty()
     }
 
-    /// True if a pair has come free so recently that its contact has not its full thickness yet.
-    #[must_use]
     pub fn is_fresh(&self) -> bool {
         !self.fresh.is_empty()
     }
 
-    /// Gives all pairs that have come free the full thickness of their contact. Returns `true` if there were any.
+    /// Gives pairs that have come free the full thickness of their contact. Returns `true` if there were any.
     pub fn ripen(&mut self) -> bool {
         !std::mem::take(&mut self.fresh).is_empty()
     }
 
-    /// Lets the contacts of pairs that have come free grow by a step.
     pub fn grow(&mut self) {
         self.fresh.iter_mut().for_each(|(_, age)| *age += 1);
         self.fresh.retain(|(_, age)| *age < FRESH_STEPS);
     }
 
-    /// Takes up the crossings `found` among these triangles at `x`.
     pub fn see(&mut self, x: &[V3], triangles: &[[usize; 3]], found: &[Intersection]) {
         let before = std::mem::take(&mut self.passing);
         for Intersection { edge, triangle } in found {
@@ -117,7 +102,6 @@ impl Untangling {
         self.harden(found.len());
     }
 
-    /// Lets the force grow if the number of crossings has not decreased for some time.
     fn harden(&mut self, count: usize) {
         let ([first, now], (least, waited)) = (&mut self.force_n, &mut self.least);
         if count == 0 {
@@ -133,8 +117,6 @@ impl Untangling {
         }
     }
 
-    /// True if a pair belongs to a crossing, so that its primitives pass each other freely.
-    #[must_use]
     pub fn pass(&self, primitives: Primitives) -> bool {
         if self.passing.is_empty() {
             return false;
@@ -142,8 +124,7 @@ impl Untangling {
         primitives.across().any(|pair| self.passing.binary_search(&pair).is_ok())
     }
 
-    /// Share of the thickness that the contact of a pair has: less than 1 where it has come free recently.
-    #[must_use]
+    /// Share of the thickness that a contact has: less than 1 where it has come free recently.
     pub fn thickness_share(&self, primitives: Primitives) -> f64 {
         if self.fresh.is_empty() {
             return 1.0;
@@ -153,8 +134,7 @@ impl Untangling {
         youngest.map_or(1.0, |age| f64::from(age + 1) / f64::from(FRESH_STEPS + 1))
     }
 
-    /// Potential energy of the forces, J.
-    #[must_use]
+    /// J.
     pub fn energy(&self, x: &[V3]) -> f64 {
         self.force_n[1] * self.releases.iter().map(|release| release.potential(x)).sum::<f64>()
     }

@@ -9,10 +9,6 @@ use geom::{V2, V3};
 use pattern::{Garment, Spot};
 
 impl Distortion {
-    /// Measures a garment with its vertices at `positions`, m.
-    ///
-    /// # Errors
-    /// When a triangle of the pattern mesh has no area.
     pub fn of(garment: &Garment, positions: &[V3]) -> Result<Self, SimError> {
         let mut found = Vec::with_capacity(garment.triangles.len());
         for (index, piece) in garment.pieces.iter().enumerate() {
@@ -44,7 +40,6 @@ impl Distortion {
     }
 }
 
-/// A triangle of the cloth with its stretch.
 struct Patch {
     stretch: f64,
     area: f64,
@@ -52,8 +47,7 @@ struct Patch {
     middle: V2,
 }
 
-/// Greater principal stretch of a triangle, less 1: the root of the greater eigenvalue of the right Cauchy-Green tensor
-/// `C = F^T F`, less 1.
+/// Root of the greater eigenvalue of the right Cauchy-Green tensor `C = F^T F`, less 1.
 fn stretch(element: &Element, positions: &[V3]) -> f64 {
     let f = element.deformation_gradient(positions);
     let c: Matrix2<f64> = f.transpose() * f;

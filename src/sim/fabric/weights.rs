@@ -3,41 +3,36 @@
 use std::fmt;
 use std::sync::LazyLock;
 
-/// The known cloths.
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Cloths {
-    /// Percentages of the percentiles, in ascending order.
     percentiles: Vec<f64>,
-    /// Classes of areal density, in ascending order.
     weight: Vec<Weight>,
 }
 
-/// Known cloths of one class of areal density.
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Weight {
-    /// Upper bound of the areal density, kg/m2. It is not applied to the last class.
+    /// Upper bound of the density. Not applied to the last class.
     to_kg_m2: f64,
-    /// Number of cloths in the class.
     cloths: usize,
-    /// Percentiles of the rigidity along the grain line, N m.
+    /// Percentiles of the rigidity along the grain line.
     warp_nm: Vec<f64>,
-    /// Percentiles of the rigidity across it, N m.
+    /// Percentiles of the rigidity across the grain line.
     weft_nm: Vec<f64>,
 }
 
 static CLOTHS: LazyLock<Cloths> =
     LazyLock::new(|| toml::from_str(include_str!("weights.toml")).expect("the built-in quantiles are valid"));
 
-/// Percentile rank of a cloth among the known ones of its weight: the percentage of them that bend more easily.
+/// Percentage of the known cloths of its weight that bend more easily.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Standing {
-    /// Below the lowest known percentile, which is this one.
+    /// Lowest known percentile.
     Below(f64),
-    /// Interpolated between known percentiles.
+    /// Interpolated percentile.
     At(f64),
-    /// Above the highest known percentile, which is this one.
+    /// Highest known percentile.
     Above(f64),
 }
 
@@ -51,41 +46,35 @@ impl fmt::Display for Standing {
     }
 }
 
-/// Percentile of the rigidity along and across the grain line among the known cloths of a weight, N m. It is limited to
-/// the range from the lowest to the highest known percentile.
-#[must_use]
+/// Rigidity percentile along and across the grain line among the known cloths of a weight, N m. Limited to the known
+/// percentiles.
 pub fn rigidities(density_kg_m2: f64, percentile: f64) -> [f64; 2] {
     let Weight { warp_nm, weft_nm, .. } = class_of(density_kg_m2);
     [warp_nm, weft_nm].map(|quantiles| quantile(quantiles, percentile))
 }
 
-/// Percentile ranks of rigidities along and across the grain line among the known cloths of a weight.
-#[must_use]
+/// Along and across the grain line, among the known cloths of a weight.
 pub fn standings(density_kg_m2: f64, rigidities_nm: [f64; 2]) -> [Standing; 2] {
     let Weight { warp_nm, weft_nm, .. } = class_of(density_kg_m2);
     [standing(warp_nm, rigidities_nm[0]), standing(weft_nm, rigidities_nm[1])]
 }
 
-/// Lowest and highest known percentile, percent. The range between them is reported as scatter.
-#[must_use]
+/// Lowest and highest known percentile. The range between them is reported as scatter.
 pub fn ends() -> [f64; 2] {
     let percentiles = &CLOTHS.percentiles;
     [percentiles[0], percentiles[percentiles.len() - 1]]
 }
 
-/// Number of known cloths of a weight.
-#[must_use]
 pub fn count(density_kg_m2: f64) -> usize {
     class_of(density_kg_m2).cloths
 }
 
-/// Weight class of an areal density.
 fn class_of(density_kg_m2: f64) -> &'static Weight {
     let classes = &CLOTHS.weight;
     classes.iter().find(|class| density_kg_m2 < class.to_kg_m2).unwrap_or(&classes[classes.len() - 1])
 }
 
-/// A percentile, interpolated in the logarithm of the rigidity.
+/// Interpolates in the logarithm of the rigidity.
 fn quantile(quantiles: &[f64], percentile: f64) -> f64 {
     let shares = &CLOTHS.percentiles;
     let last = shares.len() - 1;
@@ -97,7 +86,7 @@ fn quantile(quantiles: &[f64], percentile: f64) -> f64 {
     quantiles[k] * (quantiles[k + 1] / quantiles[k]).powf(share)
 }
 
-/// Percentile rank of a rigidity: the inverse of [`quantile`].
+/// Inverse of [`quantile`].
 fn standing(quantiles: &[f64], rigidity_nm: f64) -> Standing {
     let shares = &CLOTHS.percentiles;
     let last = shares.len() - 1;

@@ -17,44 +17,33 @@ use pattern::Garment;
 
 geom::constants! {
     "fem.carry",
-    /// Greatest angle by which limbs turn at a time, degrees: a cuff at the wrist moves by 3 cm.
+    /// Greatest angle by which limbs turn at a time: a cuff at the wrist moves by 3 cm.
     pub const TURN_DEG: f64 = 3.0;
     /// Steps of the solver at each turn but the last.
     const STEPS_A_TURN: u32 = 12;
     /// Radius about a vertex within which the skin takes it along: a factor on its distance from the skin, and an
-    /// addend, m. The mean over such skin changes smoothly from place to place, and cloth beside the trunk does not go
-    /// with a hand.
+    /// addend, m. The mean over such skin changes smoothly, and cloth beside the trunk does not go with a hand.
     const SHARE_OF_DISTANCE: f64 = 1.5;
     const BEYOND_M: f64 = 0.025;
-    /// Distance up to which skin is sought, m.
+    /// Distance up to which skin is sought.
     const FARTHEST_M: f64 = 1.0;
 }
 
-/// A body on its way from one pose into another.
 #[derive(Clone, Copy)]
 pub struct Motion<'a> {
-    /// The body in the poses on the way, all with the same triangles; the first is the one that the drape lies on.
+    /// Poses on the way, all with the same triangles; the drape lies on the first.
     pub bodies: &'a [Body],
-    /// Spacing of the nodes of its distance fields, m.
     pub spacing_m: f64,
 }
 
-/// A garment as it is worn.
 #[derive(Clone, Copy)]
 pub struct Worn<'a> {
-    /// Mesh of the drape.
     pub garment: &'a Garment,
-    /// Fabric that it is made of.
     pub fabric: &'a Fabric,
-    /// The drape on the first body.
     pub drape: &'a Drape,
 }
 
-/// Carries a drape through the poses of its body; returns the drape in the last of them.
-///
-/// # Errors
-/// When a body bounds no solid, or the garment diverges or slides off, or the monitor cancels. Not converging is no
-/// error.
+/// Carries a drape through the poses of its body, and returns that in the last. Not converging is no error.
 pub fn carry(motion: Motion, worn: Worn, params: &Params, monitor: &mut dyn Monitor) -> Result<Drape, SimError> {
     let (Motion { bodies, spacing_m }, Worn { garment, fabric, drape }) = (motion, worn);
     let cloth = Cloth::new(garment, fabric, sewing::welded(garment))?;
@@ -88,7 +77,6 @@ pub fn carry(motion: Motion, worn: Worn, params: &Params, monitor: &mut dyn Moni
     Ok(Drape { iterations, history, kept: Some(cloth.unweld(&kept)), ..carried })
 }
 
-/// Displacement of the skin from one pose to the next.
 struct Moves<'a> {
     before: &'a [V3],
     after: &'a [V3],
@@ -105,7 +93,7 @@ impl<'a> Moves<'a> {
         Ok(Self { before, after, surface, grid })
     }
 
-    /// Moves each vertex of cloth by the weighted mean displacement of the skin near it.
+    /// Moves each vertex by the weighted mean displacement of the skin near it.
     fn take_along(&self, x: &mut [V3]) {
         let mut near = Vec::new();
         for p in x {

@@ -20,27 +20,26 @@ use pattern::{Garment, PieceMesh};
 
 geom::constants! {
     "fem.dress",
-    /// Depth by which contact with the body yields to a sewn garment beyond which the garment has been drawn into the
-    /// body, m.
+    /// Depth by which contact with the body yields to a sewn garment beyond which it has been drawn into the body.
     const SEWN_INTO_M: f64 = 4e-3;
-    /// Seam gap that hardened contact may leave where softer contact leaves less, m.
+    /// Seam gap that hardened contact may leave where softer contact leaves less.
     const CLOSED_M: f64 = 1e-2;
     /// Principal stretch beyond 1 that 1 % of the cloth may exceed on any mesh, unless more is allowed. Cloth that is
     /// drawn farther ends inside the body. Coarse meshes are stretched more than fine ones (1.06 where the drape has
     /// 0.54).
     const TORN: f64 = 1.25;
-    /// Depth by which contact yields to a tight garment on a coarse mesh, m: it is about to leave the offset that keeps
-    /// it outside.
+    /// Depth by which contact yields to a tight garment on a coarse mesh: it is about to leave the offset that keeps it
+    /// outside.
     pub const TIGHT_M: f64 = 8e-4;
     /// Residual at which the next share of the stiffness begins.
     const EASED: f64 = 0.1;
-    /// Displacement of a full step at which it begins as well ([`Rest::still_m`]), m: it moves the cloth by millimetres.
+    /// Displacement of a full step at which it begins as well ([`Rest::still_m`]): it moves the cloth by millimetres.
     const EASED_STILL_M: f64 = 1e-4;
     /// Residual with the whole stiffness and without friction from which on friction holds.
     const RESTED: f64 = 0.02;
-    /// Displacement of a full step from which on it holds as well, m.
+    /// Displacement of a full step from which on it holds as well.
     const RESTED_STILL_M: f64 = 5e-5;
-    /// Room between sole and floor, m: the offsets of both contacts, and as much again. Without it the sole pushes the
+    /// Room between sole and floor: the offsets of both contacts, and as much again. Without it the sole pushes the
     /// cloth under a heel down and the floor pushes it up, and it never comes to rest.
     const SOLE_M: f64 = 3e-3;
     /// Principal stretch beyond 1 that 1 % of the sewn cloth exceeds where it is drawn tight. It has no folds then, and
@@ -48,24 +47,17 @@ geom::constants! {
     const DRAWN: f64 = 0.1;
 }
 
-/// A garment whose seams are closed, or nearly.
+/// Garment whose seams are closed, or nearly.
 struct Sewn {
-    /// Positions of its vertices, m.
     positions: Vec<V3>,
-    /// Depth by which the contact with the body yields, m.
     yields_m: f64,
 }
 
-/// A garment that is placed about the body that is to wear it.
 #[derive(Clone, Copy)]
 pub struct Placed<'a> {
-    /// The garment and the body.
     pub dressing: Dressing<'a>,
-    /// Hands that the garment comes near.
     pub hands: Option<&'a Hands<'a>>,
-    /// Places of the coarsest mesh's vertices before sewing, m.
     pub start: &'a [V3],
-    /// Factor on the sewing force.
     pub force: f64,
 }
 
@@ -73,10 +65,6 @@ impl Placed<'_> {
     /// Sews the garment and lets it come to rest. If it slides off without friction it is settled again with friction
     /// throughout, and if it slides off even so it hangs from its top edge. With [`Grip::Throughout`] friction holds it
     /// from the first seam on.
-    ///
-    /// # Errors
-    /// When its seams stay open, it diverges, slides off, is stretched beyond what cloth can bear or beyond a limit
-    /// that is to end it, or the monitor cancels.
     pub fn dress(&self, grip: Grip, run: &mut Simulation) -> Result<Settled, SimError> {
         let Dressing { wearer, skin, layer } = self.dressing;
         let coarsest = layer.coarsest()?;
@@ -110,10 +98,8 @@ impl Placed<'_> {
     }
 
     /// As [`Self::dress`] with `factor` times the sewing force, after the garment was torn with its own. A ruffle may
-    /// be torn by an accident of its start.
-    ///
-    /// # Errors
-    /// As there, and [`SimError::Torn`] where the drape is stretched beyond the limit.
+    /// be torn by an accident of its start. Fails with [`SimError::Torn`] also where the drape is stretched beyond the
+    /// limit.
     pub fn resewn(&self, factor: f64, run: &mut Simulation) -> Result<Settled, SimError> {
         let settled = Self { force: factor * self.force, ..*self }.dress(Grip::AtTheEnd, run)?;
         let distortion = Distortion::of(self.dressing.layer.finest()?, &settled.positions)?;
@@ -121,8 +107,7 @@ impl Placed<'_> {
         if is_within { Ok(settled) } else { Err(SimError::Torn { distortion }) }
     }
 
-    /// Draws the seams of the garment together; those of pieces that are folded onto it follow once all others are
-    /// closed.
+    /// Draws the seams together; those of pieces that are folded onto the garment follow once all others are closed.
     fn sew(&self, garment: &Garment, around: Around, grip: Grip, run: &mut Simulation) -> Result<Sewn, SimError> {
         let params = run.params();
         let mut x = self.start.to_vec();
@@ -143,7 +128,7 @@ impl Placed<'_> {
         Ok(Sewn { positions: x, yields_m })
     }
 
-    /// Draws all seams of pieces together by `sew`, from `x`; returns the depth by which the contact with the body
+    /// Draws all seams of pieces together by `sew`, from `x`. Returns the depth by which the contact with the body
     /// yields then, m.
     fn draw_together(
         &self,
@@ -174,8 +159,8 @@ impl Placed<'_> {
         Ok(system.contact.yields_m(x))
     }
 
-    /// Shares of its membrane stiffness with which the sewn garment comes to rest first. None where it is drawn tight,
-    /// and none for a fabric that stretches easily anyway.
+    /// Shares of the membrane stiffness with which the sewn garment comes to rest first. None where it is drawn tight,
+    /// or the fabric stretches easily anyway.
     fn shares(&self, sewn: &[V3]) -> Result<Vec<f64>, SimError> {
         let Layer { fabric, .. } = self.dressing.layer;
         let coarsest = self.dressing.layer.coarsest()?;
@@ -185,7 +170,6 @@ impl Placed<'_> {
         Ok(slack::shares(fabric, length_m(coarsest)))
     }
 
-    /// Settles the sewn garment on the coarsest mesh, and on each finer one from the one before.
     fn refine(&self, mut around: Around, sewn: &[V3], grip: Grip, run: &mut Simulation) -> Result<Settled, SimError> {
         // A garment that only friction holds up would slip while its stiffness is reduced.
         let shares = if grip == Grip::Throughout { Vec::new() } else { self.shares(sewn)? };
@@ -230,12 +214,11 @@ impl Placed<'_> {
     }
 }
 
-/// Height of the floor that a body stands on, m: below its lowest point by the room that cloth under a sole needs.
+/// Below the lowest point of the body by the room that cloth under a sole needs.
 pub fn floor_m(body: &Body) -> f64 {
     body.mesh.positions.iter().map(|p| p.z).fold(f64::MAX, f64::min) - SOLE_M
 }
 
-/// Length of the longest piece along its grain, m.
 fn length_m(garment: &Garment) -> f64 {
     let length = |piece: &PieceMesh| {
         let heights = garment.rest[piece.vertices.clone()].iter().map(|p| p.dot(&piece.grain));
@@ -247,9 +230,6 @@ fn length_m(garment: &Garment) -> f64 {
 
 /// Ends a simulation whose cloth is stretched beyond what cloth can bear, or, where that is asked for, beyond the
 /// limit.
-///
-/// # Errors
-/// [`SimError::Torn`] and [`SimError::Distorted`].
 fn control(garment: &Garment, positions: &[V3], params: &Params) -> Result<(), SimError> {
     let distortion = Distortion::of(garment, positions)?;
     let limit = params.distortion_limit;

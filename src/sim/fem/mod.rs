@@ -30,21 +30,19 @@ use settle::{Grip, Settled};
 
 geom::constants! {
     "fem",
-    /// Deepest point inside the body of a drape without a fault, m.
+    /// Deepest point inside the body of a drape without a fault.
     const FAULTLESS_DEPTH_M: f64 = 5e-4;
-    /// Rise of a garment's top from its place before sewing beyond which its seams have squeezed it off the body, m.
+    /// Rise of a garment's top from its place before sewing beyond which its seams have squeezed it off the body.
     const MOST_RISE_M: f64 = 0.25;
-    /// Factors on the sewing force with which a garment is sewn again that ends with a fault, or is torn while it is
-    /// sewn. It is an accident of the start whether one tight fold goes through another, and how a ruffle is drawn out.
-    /// A changed force gives another start that is as symmetric as the first.
+    /// Factors on the sewing force for a garment that ends with a fault, or is torn while it is sewn. It is an accident
+    /// of the start whether one tight fold goes through another, and how a ruffle is drawn out. A changed force gives
+    /// another start that is as symmetric as the first.
     const RESEWN: [f64; 2] = [1.5, 0.67];
     /// Steps times vertices (5 to 20 microseconds each) after which no other way is tried: the user has waited long
     /// enough. A T-shirt at 15 mm takes 0.7 million.
     const MOST_TRIED: u64 = 2_000_000;
 }
 
-/// Dresses a body in a garment.
-///
 /// `garments` are meshes of the same garment, coarse to fine; the drape is on the last. The coarsest mesh is placed,
 /// sewn and roughly draped. Each finer one starts from the drape of the one before. All settle without friction first,
 /// so that the drape does not depend on the path by which the seams closed. Only then does friction hold the garment. A
@@ -56,11 +54,6 @@ geom::constants! {
 /// bend, unless the parameters ask for a bend. If a fault is left, the garment is sewn with more force, and with less.
 /// Of these drapes the first without a fault is taken, failing that the best (`sim::tries`). The tries end early once
 /// they have taken long.
-///
-/// # Errors
-/// When the garment cannot be placed, is degenerate, its seams stay open, it diverges, slides off the body in spite of
-/// friction or comes off upwards. Also when it is stretched beyond what cloth can bear or beyond a limit that is to end
-/// it, or the monitor cancels. Not converging is no error.
 ///
 /// # Examples
 /// ```
@@ -118,25 +111,19 @@ pub fn simulate(
     Ok(Drape { iterations: run.iterations(), history: run.into_history(), ..drape })
 }
 
-/// A garment that is sewn again where it ends with a fault.
 struct Resewing<'a, 'r, 'm> {
-    /// The garment as it was placed at first.
     placed: Placed<'a>,
-    /// Its finest mesh.
     garment: &'a Garment,
-    /// Height of its top before sewing, m.
     placed_top_m: f64,
     run: &'r mut Simulation<'m>,
 }
 
 impl Resewing<'_, '_, '_> {
-    /// The drape that the settled finest mesh is.
     fn ended(&self, settled: Settled) -> Drape {
         let Dressing { wearer, skin, .. } = self.placed.dressing;
         settled.into_drape(skin, wearer.field, self.garment, self.run.params().tolerance)
     }
 
-    /// Rise of the garment's top from its place before sewing, m.
     fn rise_m(&self, drape: &Drape) -> f64 {
         top_m(self.garment, &drape.positions) - self.placed_top_m
     }
@@ -173,30 +160,24 @@ impl Trial for Resewing<'_, '_, '_> {
 /// where it would come to rest. Its crossings count as much as those of a drape at rest.
 const CRITERIA: Criteria = Criteria { depth_m: FAULTLESS_DEPTH_M, length_error: 0.0, is_rest_first: false };
 
-/// Faults of a drape by FEM-GS.
 fn faults(drape: &Drape, came_off: bool) -> Faults {
     let &Drape { converged, self_crossings, penetration_max_m: depth_m, .. } = drape;
     Faults { came_off, moves: !converged, self_crossings, depth_m, length_error: 0.0 }
 }
 
-/// A way to put a garment on.
 struct Way {
     start: Start,
-    /// Time from which on friction holds it.
     grip: Grip,
 }
 
-/// A start of the sewing.
 #[derive(Clone)]
 struct Start {
-    /// Places of the vertices of the coarsest mesh, m.
     positions: Vec<V3>,
-    /// Factor on the sewing force.
     force: f64,
 }
 
-/// Other ways to put a garment on that was placed as `placed` and sewn with this grip, and came off or ended with a
-/// fault; in the order in which to try them. None for a drape without a fault.
+/// Other ways to put on a garment that came off or ended with a fault, in the order in which to try them. None for a
+/// drape without a fault.
 fn other_ways(
     placed: &Placed,
     grip: Grip,
@@ -227,14 +208,12 @@ fn other_ways(
     Ok(ways)
 }
 
-/// The start of a garment, perturbed as the seed says.
 fn perturbed_start(body: &Body, garment: &Garment, bend: &Bend, seed: u64) -> Result<Start, SimError> {
     let mut positions = placement::place(body, garment, bend)?;
     let force = start::perturb(seed, &mut positions);
     Ok(Start { positions, force })
 }
 
-/// Constants of FEM-GS that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
     [
         carry::CONSTANTS,

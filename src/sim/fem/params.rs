@@ -6,25 +6,21 @@ use crate::solver::StepParams;
 
 geom::constants! {
     "fem.params",
-    /// Edge length of the coarsest mesh that still wraps an arm, m: triangles with longer edges pass through the arm.
+    /// Edge length of the coarsest mesh that still wraps an arm: triangles with longer edges pass through it.
     const COARSEST_EDGE_M: f64 = 0.065;
-    /// Greatest number of meshes.
     const MOST_LEVELS: u32 = 3;
 }
 
-/// Edge lengths (m) of the meshes of FEM-GS, coarse to fine: each half the one before, the last `finest_m`.
-#[must_use]
+/// Edge lengths (m), coarse to fine: each half the one before, the last `finest_m`.
 pub fn level_edges(finest_m: f64) -> Vec<f64> {
     let coarser = (1..MOST_LEVELS).rev().map(|level| finest_m * f64::from(1 << level));
     coarser.filter(|edge| *edge <= COARSEST_EDGE_M).chain([finest_m]).collect()
 }
 
-/// Parameters of the closing of seams in FEM-GS.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Sewing {
-    /// Stiffness of a seam spring, N/m.
     pub seam_stiffness_n_m: f64,
-    /// Initial force of a seam spring, N.
+    /// Initial force of a seam spring.
     pub seam_cap_n: f64,
     /// Factor by which force and stiffness grow when the seams come no closer.
     pub seam_growth: f64,
@@ -32,16 +28,12 @@ pub struct Sewing {
     pub sewing_progress: f64,
     /// Steps without progress after which the springs grow.
     pub sewing_patience: u32,
-    /// Least step size while sewing, s.
     pub sewing_h_min_s: f64,
-    /// Greatest step size while sewing, s.
     pub sewing_h_max_s: f64,
-    /// Greatest displacement of a vertex in a step of sewing, m.
+    /// Greatest displacement of a vertex in a step.
     pub sewing_clamp_m: f64,
-    /// Greatest number of steps of sewing where the seams are nearly closed by then; others take up to three times as
-    /// many.
+    /// Greatest number of steps where the seams are nearly closed by then; others take up to three times as many.
     pub sewing_steps: u32,
-    /// Gap at which seams are welded, m.
     pub weld_gap_m: f64,
 }
 
@@ -62,25 +54,19 @@ impl Default for Sewing {
     }
 }
 
-/// Parameters of FEM-GS.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Params {
-    /// Bend of the trunk's pieces before they are sewn.
     #[serde(flatten)]
     pub bend: Bend,
-    /// Seed of a small perturbation of the placed start, by which the sensitivity of the drape to its start is
-    /// measured; 0 for none.
+    /// Seed of a small perturbation of the placed start, by which the sensitivity of the drape is measured; 0 for none.
     pub seed: u64,
-    /// Parameters of sewing.
     #[serde(flatten)]
     pub sewing: Sewing,
-    /// Residual without friction at which a level ends and the next begins.
     pub coarse_tolerance: f64,
-    /// Greatest number of steps without friction on a level.
     pub coarse_steps: u32,
     /// Greatest number of steps without friction on the finest level where a coarser one has settled.
     pub finest_frictionless_steps: u32,
-    /// Residual, rms force over mean vertex weight, at which the drape counts as in equilibrium.
+    /// Residual, rms force over mean vertex weight, at which the drape is in equilibrium.
     pub tolerance: f64,
     /// Greatest number of steps of the last phase, with friction.
     pub max_iterations: u32,
@@ -89,11 +75,8 @@ pub struct Params {
     pub distortion_limit: f64,
     /// True if more than that ends the simulation as soon as a mesh has settled.
     pub distortion_stops: bool,
-    /// Contact of the cloth with the body.
     pub contact: ContactParams,
-    /// Contact of the cloth with itself.
     pub self_contact: ClothContactParams,
-    /// Step sizes, tolerances and limits of the solver.
     pub step: StepParams,
 }
 

@@ -26,41 +26,36 @@ use pattern::Garment;
 
 geom::constants! {
     "fem.response",
-    /// Step of the differences by which the stiffness is found, m: contacts stiffen over tenths of a millimetre.
+    /// Step of the differences by which the stiffness is found: contacts stiffen over tenths of a millimetre.
     const STEP_M: f64 = 1e-7;
     /// Residual at which a drape counts as wholly at rest.
     const AT_REST: f64 = 1e-8;
-    /// Greatest number of Newton steps, and shares of a step that are tried.
+    /// Greatest number of Newton steps, and of shares of a step that are tried.
     const NEWTON_STEPS: usize = 30;
     const SHARES: [f64; 6] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.01];
     /// Greatest number of steps that may leave a greater residual.
     const SETBACKS: usize = 5;
-    /// Diagonal shift of an indefinite stiffness, which ties vertices to their places, N/m: the first that is tried,
-    /// and the last. Twice the stiffness of the stiffest cloth is enough.
+    /// Diagonal shift of an indefinite stiffness, which ties vertices to their places: the first that is tried, and the
+    /// last. Twice the stiffness of the stiffest cloth is enough.
     const LEAST_TIE_N_M: f64 = 0.01;
     const MOST_TIE_N_M: f64 = 1e5;
 }
 
-/// A drape and the surfaces that it lies on.
 #[derive(Clone, Copy)]
 pub struct Lying<'a> {
-    /// The body's exact surface, where it bounds a solid.
+    /// `None` where the body bounds no solid.
     pub skin: Option<&'a Skin<'a>>,
-    /// Distance from the body.
     pub field: &'a DistanceField,
-    /// Height of the floor ([`floor_m`](super::floor_m)), m.
+    /// As [`floor_m`](super::floor_m).
     pub floor_m: f64,
-    /// The mesh that is draped.
     pub garment: &'a Garment,
-    /// Fabric that it is made of.
     pub fabric: &'a Fabric,
-    /// Parameters that it was draped with.
     pub params: &'a Params,
     /// True if friction holds it; without friction it has slid to where it rests.
     pub is_held: bool,
 }
 
-/// A drape in equilibrium, with its tangent stiffness.
+/// Drape in equilibrium, with its tangent stiffness.
 pub struct Response<'a> {
     fabric: &'a Fabric,
     system: System<'a>,
@@ -71,9 +66,6 @@ pub struct Response<'a> {
 
 impl<'a> Response<'a> {
     /// Brings a drape from `positions` into equilibrium. `cloth` is its garment, sewn ([`sewn`]).
-    ///
-    /// # Errors
-    /// When it diverges or slides off the body.
     pub fn of(lying: Lying<'a>, cloth: &'a Cloth, positions: &[V3]) -> Result<Self, SimError> {
         let Lying { skin, field, floor_m, garment, fabric, params, is_held } = lying;
         let Params { contact, self_contact, .. } = *params;
@@ -94,29 +86,23 @@ impl<'a> Response<'a> {
         Ok(Self { fabric, system, tangent, x, residual })
     }
 
-    /// Positions of the garment's vertices, m.
-    #[must_use]
     pub fn positions(&self) -> Vec<V3> {
         self.system.cloth.unweld(&self.x)
     }
 
-    /// Residual: rms force over mean vertex weight.
-    #[must_use]
+    /// Rms force over mean vertex weight.
     pub fn residual(&self) -> f64 {
         self.residual
     }
 
-    /// True if the tangent stiffness is positive definite: every displacement costs energy. An unstable drape is about
-    /// to fold in another way, and its derivatives mean little.
-    #[must_use]
+    /// True if the tangent stiffness is positive definite. An unstable drape is about to fold in another way, and its
+    /// derivatives mean little.
     pub fn is_stable(&self) -> bool {
         self.tangent.is_definite()
     }
 
     /// Displacements of the garment's vertices per unit of a change, from its mesh half a `unit` before and after.
-    ///
-    /// # Errors
-    /// When a triangle of either has no area; when the stiffness is singular.
+    /// Fails where the stiffness is singular.
     pub fn rates(&self, [before, after]: [&Garment; 2], unit: f64) -> Result<Vec<V3>, SimError> {
         let forces = |garment: &Garment| Ok(pulls(&sewn(garment, self.fabric)?, &self.x));
         let (before, after) = (forces(before)?, forces(after)?);
@@ -126,10 +112,7 @@ impl<'a> Response<'a> {
     }
 
     /// Positions in which the vertices of a changed pattern come to rest with the contacts as they stand, and the
-    /// residual there.
-    ///
-    /// # Errors
-    /// When one of its triangles has no area; when the stiffness is singular.
+    /// residual there. Fails where the stiffness is singular.
     pub fn again(&self, garment: &Garment) -> Result<(Vec<V3>, f64), SimError> {
         let cloth = sewn(garment, self.fabric)?;
         let mut x = self.x.clone();
@@ -148,29 +131,22 @@ impl<'a> Response<'a> {
     }
 }
 
-/// A garment, sewn.
-///
-/// # Errors
-/// When a triangle of the pattern mesh has no area.
 pub fn sewn(garment: &Garment, fabric: &Fabric) -> Result<Cloth, SimError> {
     Cloth::new(garment, fabric, sewing::welded(garment))
 }
 
-/// Internal forces of cloth and its weight, N.
 fn pulls(cloth: &Cloth, x: &[V3]) -> Vec<V3> {
     let mut forces: Vec<V3> = cloth.masses.iter().map(|mass| V3::new(0.0, 0.0, -mass * GRAVITY)).collect();
     cloth.add_forces(x, &mut forces);
     forces
 }
 
-/// Forces on cloth with the external forces of `system`, N.
 fn forces(system: &System, cloth: &Cloth, x: &[V3]) -> Vec<V3> {
     let mut forces = pulls(cloth, x);
     system.add_outer_forces(x, &mut forces);
     forces
 }
 
-/// Pairs of vertices that forces couple at `x`.
 fn couplings(system: &System, x: &[V3]) -> PairList {
     let cloth = system.cloth;
     let among = |vertices: Vec<usize>| {
@@ -194,13 +170,11 @@ fn couplings(system: &System, x: &[V3]) -> PairList {
     PairList::new(patches.chain(cloth.bending.pairs.pairs().iter().copied()).chain(touching))
 }
 
-/// An iterate of Newton's method.
 struct Iterate {
     x: Vec<V3>,
     forces: Vec<V3>,
     residual: f64,
     tangent: Tangent,
-    /// True if the stiffness is shifted by ties.
     is_tied: bool,
 }
 
@@ -212,13 +186,13 @@ impl Iterate {
         Self { residual: rms(&forces) / system.mean_weight(), x, forces, tangent, is_tied: false }
     }
 
-    /// Order of iterates: stable ones first, then by the residual.
+    /// Stable iterates come first, then the least residual.
     fn rank(&self) -> (bool, f64) {
         (!self.tangent.is_definite(), self.residual)
     }
 
-    /// Positions after the next step of Newton's method, and true where they are better. An indefinite stiffness is
-    /// shifted until it is definite, and the energy decides; else the residual does.
+    /// Positions after the next Newton step, and true where they are better. An indefinite stiffness is shifted until
+    /// it is definite, and the energy decides; else the residual does.
     fn next(&mut self, system: &System) -> Option<(Vec<V3>, bool)> {
         let is_stable = self.tangent.is_definite();
         let mut tie = LEAST_TIE_N_M;
@@ -248,8 +222,8 @@ impl Iterate {
     }
 }
 
-/// Brings cloth into equilibrium by Newton's method; returns its tangent stiffness there and the residual. Where layers
-/// come to touch on the way a step may raise the residual. A few such steps are taken, and the best iterate is kept.
+/// Brings cloth into equilibrium by Newton's method. Returns its tangent stiffness and the residual. Where layers come
+/// to touch a step may raise the residual: a few such steps are taken, and the best iterate is kept.
 fn rest(system: &System, x: &mut Vec<V3>) -> (Tangent, f64) {
     let mut now = Iterate::at(system, x.clone());
     let mut rank = now.rank();
@@ -283,7 +257,6 @@ mod tests {
     use pattern::draft::Model;
     use pattern::{Handle, Style};
 
-    /// Compares the displacements by a handle from the derivative with those from differences of two drapes at rest.
     #[test]
     fn a_drape_answers_as_its_differences_do() {
         const TAKEN_M: f64 = 1e-4;

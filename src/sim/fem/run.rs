@@ -11,29 +11,26 @@ use super::params::Params;
 
 /// State at which cloth counts as at rest: either bound suffices.
 ///
-/// The residual says little of how far cloth has to go: it rises and falls with the strains that the last step left,
-/// and soft modes cause hardly any force. Where another mesh or stiffness follows, cloth that is still is near enough.
+/// The residual says little of how far cloth has to go: it rises and falls with the strains of the last step, and soft
+/// modes cause hardly any force. Where another mesh or stiffness follows, cloth that is still is near enough.
 #[derive(Clone, Copy, Debug)]
 pub struct Rest {
-    /// Residual: rms force over mean vertex weight.
+    /// Rms force over mean vertex weight.
     pub residual: f64,
-    /// Root mean square displacement, m, that the linear solve finds for a step at the greatest step size: an estimate of
-    /// the distance from equilibrium. Steps that move the cloth by less on average, whatever cuts them, are as near.
-    /// 0 where forces alone tell.
+    /// Root mean square displacement that the linear solve finds for a step at the greatest step size: an estimate of
+    /// the distance from equilibrium. Steps that move the cloth by less on average, whatever cuts them, are as near. 0
+    /// where forces alone tell.
     pub still_m: f64,
 }
 
 impl Rest {
-    /// Rest by its residual alone.
     pub fn of_forces(residual: f64) -> Self {
         Self { residual, still_m: 0.0 }
     }
 }
 
-/// Reason why a stretch of steps ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// The cloth is at rest.
     AtRest,
     /// No step lowered the energy any more, or all moved the cloth by next to nothing.
     Stuck,
@@ -41,31 +38,27 @@ pub enum Ending {
     OutOfSteps,
 }
 
-/// A stretch of steps: its name, and when it ends.
 #[derive(Clone, Copy, Debug)]
 pub struct Phase {
     name: &'static str,
     level: usize,
-    /// State at which it ends.
     rest: Rest,
-    /// Greatest number of its steps.
     max_steps: u32,
     /// Share of the whole work that is done after it.
     until: f64,
-    /// Size of its first step, s.
     h_start_s: f64,
 }
 
 geom::constants! {
     "fem.run",
-    /// Size of the first step at the end of a drape, s: the cloth has settled already.
+    /// Size of the first step at the end of a drape: the cloth has settled already.
     const LAIN_DOWN_S: f64 = 0.5;
-    /// Displacement of a full step at which cloth on a coarse mesh is still ([`Rest::still_m`]), m: the next mesh moves it
+    /// Displacement of a full step at which cloth on a coarse mesh is still ([`Rest::still_m`]): the next mesh moves it
     /// by millimetres.
     const COARSE_STILL_M: f64 = 2e-4;
-    /// Number of steps over which the cloth's motion is averaged.
+    /// Steps over which the cloth's motion is averaged.
     const CRAWLING_STEPS: usize = 20;
-    /// Mean of the root mean square displacements of so many steps below which a drape gets nowhere, m. A hundred more
+    /// Mean of the root mean square displacements of so many steps below which a drape gets nowhere. A hundred more
     /// would move it by less than its distance from that of another mesh. It has as many more without lengthened steps.
     const CRAWLING_M: f64 = 2e-5;
     /// Greatest number of steps of easing: T-shirts and dresses take 10 to 33.
@@ -73,22 +66,21 @@ geom::constants! {
     /// Steps times vertices that a drape may take on a mesh with edges of [`USUAL_EDGE_M`], about a minute on one core.
     /// Garments that come to rest mostly take 0.5 to 2 million.
     const MOST_WORK: f64 = 3e6;
-    /// Edge length up to which that holds, m. Finer meshes may take more by the third power: they have more vertices and
+    /// Edge length up to which that holds. Finer meshes may take more by the third power: they have more vertices and
     /// take more steps.
     const USUAL_EDGE_M: f64 = 0.015;
-    /// Shares of the whole work of a T-shirt that are done once it is sewn, when the finest mesh begins, when friction
-    /// begins to hold it, and when no point is inside the body any more.
+    /// Shares of the work of a T-shirt that are done once it is sewn, when the finest mesh begins, when friction begins
+    /// to hold it, and when no point is inside the body any more.
     const DONE: [f64; 4] = [0.05, 0.2, 0.9, 0.95];
-    /// Greatest number of steps of sewing over that for seams that are nearly closed. A seam that nearly closed has met
-    /// an obstacle; more steps would draw it through.
+    /// Factor on the steps of sewing for seams that are nearly closed. A seam that nearly closed has met an obstacle;
+    /// more steps would draw it through.
     const PATIENCE: u32 = 3;
-    /// Greatest descent of a garment's top from its height as sewn, m. Trousers and skirts that do not hold at the
-    /// waist hold at the hips, a fifth of a metre lower, or not at all.
+    /// Greatest descent of a garment's top from its height as sewn. Trousers and skirts that do not hold at the waist
+    /// hold at the hips, a fifth of a metre lower, or not at all.
     pub const MOST_DESCENT_M: f64 = 0.25;
 }
 
 impl Phase {
-    /// Coming to rest without friction on level `level` of `last`.
     pub fn frictionless(params: &Params, level: usize, last: usize) -> Self {
         let [sewn, coarse, eased, _] = DONE;
         let part = (level + 1) as f64 / last.max(1) as f64;
@@ -104,7 +96,7 @@ impl Phase {
         }
     }
 
-    /// Coming nearly to rest on a level, without friction: the round `round` of `rounds`.
+    /// Comes nearly to rest without friction.
     pub fn easing(params: &Params, level: usize, last: usize, rest: Rest, [round, rounds]: [usize; 2]) -> Self {
         let [_, coarse, eased, _] = DONE;
         let until = coarse + (eased - coarse) * (round + 1) as f64 / rounds as f64;
@@ -116,7 +108,6 @@ impl Phase {
         Self { max_steps: steps, ..Self::frictionless(params, level, last) }
     }
 
-    /// The end of the drape, with friction.
     pub fn final_drape(params: &Params, level: usize, tolerance: f64) -> Self {
         Self {
             name: "drape",
@@ -129,36 +120,31 @@ impl Phase {
     }
 }
 
-/// Progress of the phase that a step belongs to.
 struct Recorded {
     name: &'static str,
     level: usize,
-    /// Share of the whole work that is done.
     fraction: f64,
-    /// Greatest seam gap, m.
     seam_gap_m: f64,
 }
 
-/// A simulation under way.
 pub struct Simulation<'a> {
     params: &'a Params,
     monitor: &'a mut dyn Monitor,
     levels: usize,
-    /// Height of the garment's top as it was sewn, m.
+    /// Height of the garment's top as it was sewn.
     worn_at_m: Option<f64>,
     iteration: u32,
     vertex_steps: u64,
-    /// Number of those after which it ends.
+    /// Number of vertex steps after which the run ends.
     most_vertex_steps: u64,
     /// Share of the whole work that is done.
     fraction: f64,
     history: Vec<Step>,
-    /// Reason why the last stretch of steps ended.
     ending: Ending,
 }
 
 impl<'a> Simulation<'a> {
-    /// A run over levels 0 to `levels`.
+    /// Levels are 0 to `levels`.
     pub fn new(params: &'a Params, monitor: &'a mut dyn Monitor, levels: usize) -> Self {
         let history = Vec::new();
         Self {
@@ -175,7 +161,7 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    /// The same, which ends with what it has once it has taken long, by the finest mesh.
+    /// Makes the run end with what it has once it has taken long, by the finest mesh.
     pub fn within_patience(mut self, finest: &Garment) -> Self {
         let area = |t: &[usize; 3]| {
             let [a, b, c] = t.map(|v| finest.rest[v]);
@@ -188,17 +174,15 @@ impl<'a> Simulation<'a> {
         self
     }
 
-    /// True if it has taken so long that it ends with what it has.
+    /// True if the run has taken so long that it ends with what it has.
     pub fn is_spent(&self) -> bool {
         self.vertex_steps > self.most_vertex_steps
     }
 
-    /// Parameters of the simulation.
     pub fn params(&self) -> &'a Params {
         self.params
     }
 
-    /// Ends the run from here on when the garment's top comes down too far from that of `sewn`.
     pub fn keep_up(&mut self, garment: &Garment, sewn: &[V3]) {
         self.worn_at_m = Some(top_m(garment, sewn));
     }
@@ -208,42 +192,33 @@ impl<'a> Simulation<'a> {
         self.levels
     }
 
-    /// True if a garment that ends with a fault is put on again in another way.
     pub fn tries_again(&self) -> bool {
         self.monitor.tries_again()
     }
 
-    /// Reason why the last stretch of steps ended.
     pub fn ending(&self) -> Ending {
         self.ending
     }
 
-    /// True if the last stretch of steps got no nearer to rest.
     pub fn is_stuck(&self) -> bool {
         self.ending == Ending::Stuck
     }
 
-    /// Number of iterations so far.
     pub fn iterations(&self) -> u32 {
         self.iteration
     }
 
-    /// Sum over all iterations of the number of vertices.
     pub fn vertex_steps(&self) -> u64 {
         self.vertex_steps
     }
 
-    /// All recorded steps.
     pub fn into_history(self) -> Vec<Step> {
         self.history
     }
 
-    /// Draws the seams together until they can be welded. The springs grow stronger while the seams do not come closer:
-    /// a tight garment is pulled as hard as it needs, a loose one no harder. `whole` gives the positions of all
-    /// vertices of the garment, of which the system may have only a part.
-    ///
-    /// # Errors
-    /// When the cloth diverges or slides off the body, or the monitor cancels.
+    /// Draws the seams together until they can be welded. The springs grow stronger while the seams come no closer: a
+    /// tight garment is pulled as hard as it needs, a loose one no harder. `whole` gives the positions of all vertices
+    /// of the garment, of which the system may have only a part.
     pub fn sew(
         &mut self,
         garment: &Garment,
@@ -288,10 +263,7 @@ impl<'a> Simulation<'a> {
         Ok(())
     }
 
-    /// Steps until the cloth is at rest, gets no nearer, or the steps or the patience are used up; returns the residual.
-    ///
-    /// # Errors
-    /// When the cloth diverges or slides off the body, or the monitor cancels.
+    /// Steps until the cloth is at rest, gets no nearer, or steps or patience are used up. Returns the residual.
     pub fn drape(
         &mut self,
         garment: &Garment,
@@ -337,8 +309,6 @@ impl<'a> Simulation<'a> {
         Ok(residual)
     }
 
-    /// Records and reports a step after which the stepped vertices are at `x` and those of the garment at `positions`,
-    /// m.
     fn record(
         &mut self,
         garment: &Garment,
@@ -374,7 +344,7 @@ impl<'a> Simulation<'a> {
     }
 }
 
-/// E of a step: the mean of L3D / L2D over the garment's measurements; not a number when it has none.
+/// Mean of L3D / L2D over the garment's measurements; not a number when it has none.
 fn mean_chi(garment: &Garment, positions: &[V3]) -> f64 {
     let chi = |m: &Measurement| m.length_m(&garment.rest, positions) / m.l2d_m;
     garment.measurements.iter().map(chi).sum::<f64>() / garment.measurements.len() as f64

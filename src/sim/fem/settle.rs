@@ -14,61 +14,53 @@ use pattern::Garment;
 
 geom::constants! {
     "fem.settle",
-    /// Deepest point inside the body up to which no point has to be held out, m.
+    /// Deepest point inside the body up to which no point has to be held out.
     const DEEPEST_M: f64 = 3e-4;
     /// Greatest number of times that a drape is taken up again, because it is not at rest or has points inside the
     /// body.
     const HOLDING_ROUNDS: usize = 8;
-    /// Residual at which points inside the body are looked for: the forces that press them in leave a residual of
-    /// hundreds.
+    /// Residual at which points inside the body are looked for: the forces that press them in leave one of hundreds.
     const HELD: f64 = 1.0;
-    /// Penalty of the contact with the body for cloth that is drawn tight or over a hand, N/m3: fingertips press
-    /// through a softer one.
+    /// Penalty of body contact for cloth that is drawn tight or over a hand: fingertips press through a softer one.
     const HARD_N_M3: f64 = 1e9;
-    /// Penalty of the cloth's contact with itself for the same cloth, N/m3: where a seat is drawn tight, a softer one
-    /// lets layers through.
+    /// Penalty of the cloth's contact with itself for the same cloth: where a seat is drawn tight, a softer one lets
+    /// layers through.
     const HARD_LAYERS_N_M3: f64 = 1e7;
     /// Residual at which a drape without friction is handed on to Newton's method, and the greatest number of rounds in
     /// which points inside the body are held out before.
     const FREE: f64 = 0.05;
     const FREE_ROUNDS: usize = 4;
-    /// Rise of the floor at a time, m, and steps of the solver after each rise.
+    /// Rise of the floor at a time, m, and steps of the solver after each.
     const RISE_M: f64 = 5e-3;
     const STEPS_A_RISE: u32 = 3;
-    /// Steps of the solver on each shape that a hand passes through.
     const PASSING_STEPS: u32 = 12;
 }
 
-/// The time from which on friction holds a garment.
+/// Time from which on friction holds a garment.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Grip {
-    /// Once it has come to rest without friction: then the drape does not depend on the path by which the seams closed.
+    /// Once it has come to rest without friction: the drape does not depend on the path by which the seams closed.
     AtTheEnd,
-    /// From the sewing on: for a garment that would slide off the body without friction.
+    /// From the sewing on: for a garment that would slide off without friction.
     Throughout,
-    /// Likewise, and its top edge keeps its height: for a garment that would slide off with friction as well.
+    /// As `Throughout`, and the top edge keeps its height: for a garment that would slide off with friction as well.
     Braced,
 }
 
-/// The body as contact sees it: exactly, and as a field.
+/// Body as contact sees it: exactly, and as a field.
 #[derive(Clone, Copy)]
 pub struct Around<'a> {
-    /// `None` where the mesh bounds no solid: then only the field holds the cloth.
+    /// `None` where the mesh bounds no solid: only the field holds the cloth.
     pub skin: Option<&'a Skin<'a>>,
-    /// Distance from the body.
     pub field: &'a DistanceField,
-    /// Height of the floor that the body stands on, m.
     pub floor_m: f64,
-    /// Hands that the cloth comes near.
     pub hands: Option<&'a Hands<'a>>,
-    /// Parameters of the contact with the body.
     pub contact: ContactParams,
-    /// Parameters of the contact of the cloth with itself.
     pub self_contact: ClothContactParams,
 }
 
 impl Around<'_> {
-    /// The same with contacts stiff enough for cloth that is drawn tight.
+    /// Contacts stiff enough for cloth that is drawn tight.
     pub fn hardened(mut self) -> Self {
         self.contact.stiffness_n_m3 = self.contact.stiffness_n_m3.max(HARD_N_M3);
         self.self_contact.stiffness_n_m3 = self.self_contact.stiffness_n_m3.max(HARD_LAYERS_N_M3);
@@ -76,26 +68,20 @@ impl Around<'_> {
     }
 }
 
-/// A settled level.
 pub struct Settled {
-    /// Positions of the garment's vertices, m.
     pub positions: Vec<V3>,
     /// Rms force over mean vertex weight.
     pub residual: f64,
     /// True if no step lowered the energy any more, though it was not at rest.
     pub is_stuck: bool,
-    /// Depth by which the contact with the body yields, m.
     pub yields_m: f64,
-    /// Force that its top edge had to be held up with, N.
     pub braced_n: Option<f64>,
-    /// Positions of the sewn vertices, m.
     pub sewn: Vec<V3>,
-    /// Triangles of the sewn vertices.
     pub triangles: Vec<[usize; 3]>,
 }
 
 impl Settled {
-    /// The settled finest mesh, `garment`, as a drape; it has converged where the residual is at most `tolerance`.
+    /// Makes a drape of the finest mesh, converged where the residual is at most `tolerance`.
     pub fn into_drape(self, skin: Option<&Skin>, field: &DistanceField, garment: &Garment, tolerance: f64) -> Drape {
         Drape {
             stage: Stage::Drape,
@@ -116,26 +102,18 @@ impl Settled {
     }
 }
 
-/// A level that is to settle.
 #[derive(Clone, Copy)]
 pub struct Settling<'a> {
-    /// Surfaces that it meets.
     pub around: Around<'a>,
     /// Mesh of this level, its pieces apart.
     pub garment: &'a Garment,
-    /// The same, sewn.
     pub cloth: &'a Cloth,
-    /// Number of the level; the coarsest is 0.
+    /// 0 is the coarsest.
     pub level: usize,
-    /// Time from which on friction holds it.
     pub grip: Grip,
 }
 
 impl<'a> Settling<'a> {
-    /// Lets the sewn vertices come to rest from `x`.
-    ///
-    /// # Errors
-    /// When they diverge or slide off the body, or the monitor cancels.
     pub fn settle(&self, mut x: Vec<V3>, run: &mut Simulation) -> Result<Settled, SimError> {
         let Self { around, cloth, level, .. } = *self;
         let params = run.params();
@@ -171,9 +149,6 @@ impl<'a> Settling<'a> {
 
     /// Lets the sewn vertices come nearly to rest from `x`, without friction unless it holds throughout; returns true
     /// where they do. It is the round `rounds[0]` of `rounds[1]`.
-    ///
-    /// # Errors
-    /// When they diverge or slide off the body, or the monitor cancels.
     pub fn ease(
         &self,
         x: &mut Vec<V3>,
@@ -196,8 +171,7 @@ impl<'a> Settling<'a> {
         x.iter().any(|p| p.z < self.around.floor_m)
     }
 
-    /// Raises the floor from below the cloth to the height at which the body stands: cloth longer than the leg comes to
-    /// lie on it.
+    /// Raises the floor from below the cloth to its height: cloth longer than the leg comes to lie on it.
     fn stand(&self, system: &mut System, x: &mut Vec<V3>, run: &mut Simulation) -> Result<(), SimError> {
         let floor_m = self.around.floor_m;
         let lowest_m = x.iter().map(|p| p.z).fold(f64::MAX, f64::min) - self.around.contact.offset_m;
@@ -211,13 +185,11 @@ impl<'a> Settling<'a> {
         Ok(())
     }
 
-    /// Areas of the sewn vertices by which the cloth's contact with itself is weighted, m2.
     fn contact_areas(&self) -> Vec<f64> {
         let Cloth { vertex_of, areas, .. } = self.cloth;
         contact_areas(self.garment, vertex_of, areas, 2.0 * self.around.self_contact.thickness_m)
     }
 
-    /// The system of the cloth at `x` in contact with the body and with itself.
     fn system<'s>(&self, contact: BodyContact<'s>, x: &[V3]) -> System<'s>
     where
         'a: 's,
@@ -230,11 +202,7 @@ impl<'a> Settling<'a> {
         system
     }
 
-    /// The system of a finest mesh that is draped at `x`. It comes to rest there with friction where `is_held`, else
-    /// without.
-    ///
-    /// # Errors
-    /// When it diverges or slides off the body, or the monitor cancels.
+    /// System of a finest mesh draped at `x`, which comes to rest there with friction where `is_held`.
     pub fn taken_up(&self, x: &mut Vec<V3>, is_held: bool, run: &mut Simulation) -> Result<System<'a>, SimError> {
         let mut system = self.system(self.contact(self.around.field, x, run), x);
         system.contact.set_floor(self.around.floor_m);
@@ -252,10 +220,6 @@ impl<'a> Settling<'a> {
         Ok(system)
     }
 
-    /// A few steps of a finest mesh from `x` with friction, while the body moves on.
-    ///
-    /// # Errors
-    /// When it diverges or slides off the body, or the monitor cancels.
     pub fn pass(&self, x: &mut Vec<V3>, steps: u32, run: &mut Simulation) -> Result<(), SimError> {
         let mut system = self.system(self.contact(self.around.field, x, run), x);
         system.contact.set_floor(self.around.floor_m);
@@ -264,10 +228,6 @@ impl<'a> Settling<'a> {
         run.drape(self.garment, &mut system, x, phase).map(|_| ())
     }
 
-    /// Lets a finest mesh come to rest from `x` with friction.
-    ///
-    /// # Errors
-    /// When it diverges or slides off the body, or the monitor cancels.
     pub fn rest(&self, mut x: Vec<V3>, run: &mut Simulation) -> Result<Settled, SimError> {
         let mut system = self.system(self.contact(self.around.field, &x, run), &x);
         system.contact.set_floor(self.around.floor_m);
@@ -277,7 +237,7 @@ impl<'a> Settling<'a> {
         Ok(Settled { positions, residual, is_stuck: run.is_stuck(), yields_m, braced_n, sewn: x, triangles })
     }
 
-    /// Steps without friction until it is at rest, or only a few where `is_passing`; returns the residual.
+    /// Steps until the cloth is at rest, or only a few where `is_passing`. Returns the residual.
     fn frictionless(
         &self,
         system: &mut System,
@@ -292,7 +252,6 @@ impl<'a> Settling<'a> {
         run.drape(self.garment, system, x, Phase::frictionless(&params, self.level, run.levels()))
     }
 
-    /// Contact of the cloth, which begins at `x`, with the body of a distance field.
     fn contact<'f>(&self, field: &'f DistanceField, x: &[V3], run: &Simulation) -> BodyContact<'f> {
         let triangles = &self.cloth.triangles;
         let mut contact = BodyContact::new(field, self.around.contact, &self.cloth.areas);
@@ -310,14 +269,14 @@ impl<'a> Settling<'a> {
         contact
     }
 
-    /// Adds constraints for points inside the body, which hold them out from now on; returns the greatest depth, m.
+    /// Holds points inside the body out from now on. Returns the greatest depth, m.
     fn hold_out(&self, contact: &mut BodyContact, x: &[V3], is_at_rest: bool) -> f64 {
         let Cloth { membrane, triangles, .. } = self.cloth;
         let deepest = |skin| contact.hold_out(skin, (membrane.pairs.pairs(), triangles), x, is_at_rest);
         self.around.skin.map_or(0.0, deepest)
     }
 
-    /// The end of the drape, with friction, until no point lies inside the body; returns the residual. The tolerance is
+    /// End of the drape, with friction, until no point lies inside the body. Returns the residual. The tolerance is
     /// loose until then: each round moves the cloth again.
     fn hold(&self, system: &mut System, x: &mut Vec<V3>, run: &mut Simulation) -> Result<f64, SimError> {
         let params = run.params();

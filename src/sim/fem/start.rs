@@ -5,20 +5,20 @@ use geom::V3;
 
 geom::constants! {
     "fem.start",
-    /// Greatest shift along each axis, m.
+    /// Along each axis.
     const SHIFT_M: f64 = 5e-3;
-    /// Greatest turn about the vertical, rad: one degree.
+    /// Greatest turn about the vertical: one degree.
     const TURN_RAD: f64 = 0.0175;
     /// Greatest widening about the garment's middle, as a share.
     const WIDENING: f64 = 0.05;
-    /// Greatest displacement of single vertices along each axis, m.
+    /// Greatest displacement of single vertices along each axis.
     const JITTER_M: f64 = 1e-3;
     /// Greatest factor on the force of the seam springs; its inverse is the least.
     const FORCE: f64 = 1.5;
 }
 
-/// Perturbs a placed garment as the seed says: shifts it, turns it about the vertical, widens it and jitters each
-/// vertex. Returns the factor on the sewing force. Seed 0 changes nothing.
+/// Shifts a placed garment, turns it about the vertical, widens it and jitters each vertex. Returns the factor on the
+/// sewing force. Seed 0 changes nothing.
 pub fn perturb(seed: u64, x: &mut [V3]) -> f64 {
     if seed == 0 || x.is_empty() {
         return 1.0;

@@ -21,7 +21,6 @@ fn turned(triangles: &[[usize; 3]]) -> Vec<[usize; 3]> {
     triangles.iter().map(|&[a, b, c]| [a, c, b]).collect()
 }
 
-/// A body whose left differs from its right: bent to one side as it goes up, one side a little stouter.
 fn lopsided() -> Body {
     let mut body = body::build(&Measurements::of(Sex::Male, 1.75)).expect("a body");
     let bend = |p: &V3| V3::new(p.x * (1.0 + 0.04 * (3.0 * p.x).tanh()) + 0.02 * (p.z - 1.0).powi(2), p.y, p.z);
@@ -76,7 +75,6 @@ fn mirrored_garment(garment: &Garment) -> Garment {
     garment
 }
 
-/// Greatest distance of a place from the mirror image of its counterpart, mm.
 fn apart_mm(x: &[V3], mirrored: &[V3]) -> f64 {
     1e3 * x.iter().zip(mirrored).map(|(p, q)| (flipped(p) - q).norm()).fold(0.0, f64::max)
 }
@@ -86,12 +84,10 @@ fn levels(model: Model, edge_m: f64) -> Vec<Garment> {
     level_edges(edge_m).into_iter().map(|edge| style.mesh(edge).expect("a mesh")).collect()
 }
 
-/// A garment that is placed about a body without hands or exact skin.
 fn placed<'a>(wearer: Wearer<'a>, layer: Layer<'a>, start: &'a [V3]) -> Placed<'a> {
     Placed { dressing: Dressing { wearer, skin: None, layer }, hands: None, start, force: 1.0 }
 }
 
-/// True if a drape that has not come off has no fault.
 fn is_faultless(drape: &Drape) -> bool {
     faults(drape, false).are_none(&CRITERIA)
 }
@@ -163,7 +159,7 @@ fn what_cannot_be_drawn_on_is_given_up() {
     check(0.35, &["do not close on this body: \"leg_", "mm apart"]);
 }
 
-/// Trousers, and a soft, slippery knit for them, with more at the end of their seam file.
+/// Trousers with `more` at the end of their seam file, and a soft, slippery knit.
 fn slippery(more: &str) -> (Garment, Fabric) {
     let seams = [Model::Trousers.seams(), more.as_bytes()].concat();
     let style = Style::read(&Model::Trousers.drafts()[1].pieces, &seams, "seams");
@@ -171,7 +167,6 @@ fn slippery(more: &str) -> (Garment, Fabric) {
     (style.expect("drafted").mesh(0.04).expect("it meshes"), Fabric { friction_body: 0.05, ..knit })
 }
 
-/// Drapes slippery trousers on a man of 1.75 m; `more` adds to their seam file.
 fn slippery_trousers(more: &str) -> Result<Drape, SimError> {
     let measurements = Measurements::of(Sex::Male, 1.75)
         .with(Dimension::ChestGirth, 0.94)
@@ -239,7 +234,6 @@ fn lapels_are_sewn_onto_the_closed_garment_and_cross_nothing() {
     assert!(drape.history.windows(2).filter(|two| two[1].level < two[0].level).count() == 0);
 }
 
-/// A drape with a depth inside the body, m, and a number of crossings.
 fn ended(converged: bool, (depth_m, crossings): (f64, usize)) -> Drape {
     Drape { converged, penetration_max_m: depth_m, self_crossings: crossings, ..testing::drape() }
 }

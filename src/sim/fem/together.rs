@@ -66,7 +66,7 @@ impl Wear for Params {
     }
 }
 
-/// The layer that has come down farthest, with its descent, m; `None` where none has slid off.
+/// Layer that has come down farthest, with its descent, m; `None` where none has slid off.
 fn slid<'a>(garments: &[&'a Garment], drapes: &[Drape], lies: &Settled) -> Option<(&'a Garment, f64)> {
     let after = parted(garments, &lies.positions);
     let descents = garments

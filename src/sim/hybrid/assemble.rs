@@ -13,32 +13,27 @@ use pattern::{Garment, PieceMesh, Role, SeamMesh};
 
 geom::constants! {
     "hybrid.assemble",
-    /// Number of steps in which pieces sewn together are laid flat.
     const FLATTENING: u32 = 12;
     /// Weight of a vertex's place meanwhile, over that of its triangles: just enough to keep the pieces where they are.
     const HOLD: f64 = 1e-6;
 }
 
-/// A garment in as few pieces as the body needs.
+/// Garment in as few pieces as the body needs.
 #[derive(Clone, Debug)]
 pub struct Assembly {
-    /// The joined pieces, flat, with the seams that are still open; without measurements.
+    /// Joined pieces, flat, with the seams that are still open; without measurements.
     pub garment: Garment,
-    /// Vertex of the joined pieces for each vertex of the garment as cut; `None` on pieces that follow.
+    /// Vertex of the joined pieces for each of the garment as cut; `None` on pieces that follow.
     pub vertex_of: Vec<Option<usize>>,
-    /// Pieces as cut that only hang on others.
     pub followers: Vec<usize>,
 }
 
-/// A stretch of a seam between two pieces, or of one with itself.
 struct Stretch {
     pieces: [usize; 2],
     name: String,
     pairs: Vec<[usize; 2]>,
 }
 
-/// Joins the pieces of a garment that lie side by side on one part of the body.
-#[must_use]
 pub fn assemble(garment: &Garment) -> Assembly {
     let stretches = stretches(garment);
     let parts = parts(garment, &stretches);
@@ -54,7 +49,7 @@ pub fn assemble(garment: &Garment) -> Assembly {
     Numbered::new(garment, &sewn, &groups).assembly(garment, &parts, &groups, &flat, &outer, &marks)
 }
 
-/// The seams of a garment, parted where a side goes over to another piece.
+/// Seams, parted where a side goes over to another piece.
 fn stretches(garment: &Garment) -> Vec<Stretch> {
     let piece_of = |v: usize| garment.pieces.iter().position(|p| p.vertices.contains(&v)).unwrap_or(usize::MAX);
     let mut found: Vec<Stretch> = Vec::new();
@@ -108,7 +103,6 @@ fn parts(garment: &Garment, stretches: &[Stretch]) -> Vec<Option<Role>> {
 
 /// Points at which the underarm seams of sleeves meet the trunk.
 struct Marks {
-    /// Welded vertex of each vertex.
     welded: Vec<usize>,
     /// Welded vertices at which sleeves in pieces are left open: those at the sides of the trunk, or the nearest to
     /// them.
@@ -141,7 +135,6 @@ fn is_sleeve(role: Role) -> bool {
     matches!(role, Role::SleeveRight | Role::SleeveLeft)
 }
 
-/// Distance of a welded vertex from a side seam on the trunk, m.
 fn off_side_m(garment: &Garment, welded: &[usize], sides: &BTreeSet<usize>, sewn: usize) -> f64 {
     let mut nearest = f64::MAX;
     for piece in garment.pieces.iter().filter(|p| !is_sleeve(p.role)) {
@@ -156,7 +149,6 @@ fn off_side_m(garment: &Garment, welded: &[usize], sides: &BTreeSet<usize>, sewn
     nearest
 }
 
-/// Welded vertices of the upright seams between front and back.
 fn sides(garment: &Garment, stretches: &[Stretch], welded: &[usize]) -> BTreeSet<usize> {
     use super::features::{Face, face};
     let mut sides = BTreeSet::new();
@@ -196,7 +188,6 @@ fn seams(stretches: &[Stretch], number: impl Fn(usize) -> usize) -> Vec<SeamMesh
     stretches.iter().map(seam).collect()
 }
 
-/// Pieces that are sewn together beforehand, largest first; groups in the order of their first pieces.
 fn groups(parts: &[Option<Role>], inner: &[Stretch]) -> Vec<Vec<usize>> {
     let mut group: Vec<usize> = (0..parts.len()).collect();
     for stretch in inner {
@@ -210,7 +201,7 @@ fn groups(parts: &[Option<Role>], inner: &[Stretch]) -> Vec<Vec<usize>> {
     groups.into_values().collect()
 }
 
-/// Places of the vertices sewn so far, in the plane of the largest piece of their group, m.
+/// Places of the vertices sewn so far, in the plane of the largest piece of their group.
 fn flat(garment: &Garment, sewn: &[usize], groups: &[Vec<usize>], inner: &[Stretch]) -> Vec<V2> {
     let mut laid = garment.rest.clone();
     for group in groups.iter().filter(|group| group.len() > 1) {
@@ -235,7 +226,7 @@ fn flat(garment: &Garment, sewn: &[usize], groups: &[Vec<usize>], inner: &[Stret
     x.into_iter().map(|p| p.xy()).collect()
 }
 
-/// Lays the pieces of a group beside each other as they are sewn; the largest stays where it is.
+/// Lays a group's pieces beside each other as they are sewn; the largest stays where it is.
 fn beside(garment: &Garment, group: &[usize], inner: &[Stretch], laid: &mut [V2]) {
     let size = |p: &usize| garment.pieces[*p].triangles.len();
     let Some(&first) = group.iter().max_by_key(|p| size(p)) else { return };
@@ -259,7 +250,6 @@ fn beside(garment: &Garment, group: &[usize], inner: &[Stretch], laid: &mut [V2]
     }
 }
 
-/// A rigid motion of the plane.
 struct Motion {
     from: V2,
     to: V2,
@@ -267,7 +257,7 @@ struct Motion {
 }
 
 impl Motion {
-    /// The least-squares motion of the first vertices of pairs, at `rest`, onto the second, at `laid`.
+    /// Least-squares motion of the first vertices of pairs, at `rest`, onto the second, at `laid`.
     fn onto(pairs: &[[usize; 2]], rest: &[V2], laid: &[V2]) -> Self {
         let n = pairs.len().max(1) as f64;
         let from = pairs.iter().map(|&[v, _]| rest[v]).sum::<V2>() / n;
@@ -283,7 +273,6 @@ impl Motion {
     }
 }
 
-/// Vertices of the assembled garment, group by group.
 struct Numbered {
     /// By vertex sewn so far.
     number: Vec<usize>,

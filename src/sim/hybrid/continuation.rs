@@ -4,22 +4,19 @@ use crate::SimError;
 use geom::{V2, V3};
 use pattern::Garment;
 
-/// A point of a seam with a tangent frame, from which a piece continues.
+/// Point of a seam with a tangent frame, from which a piece continues.
 struct Anchor {
-    /// Place of the piece's own vertex in its plane, m.
+    /// Place of the piece's own vertex in its plane.
     rest: V2,
-    /// Directions along the seam and into the piece, in its plane.
+    /// Along the seam and into the piece, in its plane.
     axes: [V2; 2],
     place: V3,
-    /// The same directions in space.
+    /// As `axes`, in space.
     ways: [V3; 2],
 }
 
-/// Places the pieces `followers`, each by the placed pieces that it is sewn to, those with the longest such seams
-/// first.
-///
-/// # Errors
-/// [`SimError::CannotPlace`] when a piece is sewn to nothing that is placed.
+/// Places the pieces `followers` by the placed pieces that they are sewn to, those with the longest such seams first.
+/// Fails where a piece is sewn to nothing that is placed.
 pub fn place(garment: &Garment, followers: &[usize], positions: &mut [V3]) -> Result<(), SimError> {
     let mut open = followers.to_vec();
     while !open.is_empty() {
@@ -70,8 +67,7 @@ fn anchors(garment: &Garment, pairs: &[[usize; 2]], positions: &[V3]) -> Vec<Anc
     (0..n).filter_map(anchor).collect()
 }
 
-/// Place of a point of a piece: the mean of its places by all anchors, weighted by the inverse fourth power of their
-/// distance.
+/// Mean of a point's places by all anchors, weighted by the inverse fourth power of their distance.
 fn continued(anchors: &[Anchor], p: V2) -> V3 {
     let (mut sum, mut weights) = (V3::zeros(), 0.0);
     for anchor in anchors {

@@ -17,31 +17,25 @@ use pattern::Garment;
 
 geom::constants! {
     "hybrid.draw",
-    /// Greatest displacement of a vertex in a step, m.
+    /// Greatest displacement of a vertex in a step.
     const STRIDE_M: f64 = 8e-3;
-    /// Length by which the sides of a seam are drawn nearer in a step at first, m.
+    /// Length by which the sides of a seam are drawn nearer in a step at first.
     const CLOSER_M: f64 = 5e-3;
     /// Factor by which that grows where they come no nearer.
     const GROWTH: f64 = 1.5;
-    /// Steps without progress after which it grows.
     const PATIENCE: u32 = 4;
-    /// Length at which the seams are given up, m: an obstacle holds them open.
+    /// Length at which the seams are given up: an obstacle holds them open.
     const MOST_CLOSER_M: f64 = 1.0;
     /// Share of the least mean gap so far below which a gap counts as progress.
     const PROGRESS: f64 = 0.98;
     /// Weight of contact per area and over the membrane stiffness, 1/m2. Seams draw harder than gravity does.
     const CONTACT: f64 = 4000.0;
-    /// Greatest gap with which all seams count as closed, m.
     const CLOSED_M: f64 = 3e-3;
-    /// Greatest number of steps.
     const STEPS: u32 = 400;
 }
 
-/// Places the pieces of a garment and draws their seams together; returns the positions of its vertices, m. Calls
-/// `each` with those of every step, which may end it early with an error.
-///
-/// # Errors
-/// [`SimError::CannotPlace`], [`SimError::Degenerate`], [`SimError::Open`] where seams stay open, and those of `each`.
+/// Places the pieces and draws their seams together; returns the positions of the vertices. Calls `each` with those of
+/// every step, which may end it early with an error. Fails with [`SimError::Open`] where seams stay open.
 pub fn together(
     wearer: Wearer,
     garment: &Garment,
@@ -66,7 +60,6 @@ pub fn together(
     draw(wearer, garment, fabric, x, each)
 }
 
-/// Draws all seams of pieces at `x` together.
 fn draw(
     wearer: Wearer,
     garment: &Garment,
@@ -104,7 +97,6 @@ fn draw(
     Ok(relaxation.x)
 }
 
-/// Mean gap of seams, m.
 fn mean_gap_m(garment: &Garment, x: &[V3]) -> f64 {
     let gaps: Vec<f64> =
         garment.seams.iter().flat_map(|seam| &seam.pairs).map(|&[a, b]| (x[a] - x[b]).norm()).collect();

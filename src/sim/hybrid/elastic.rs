@@ -12,7 +12,7 @@ use geom::{V2, V3};
 use pattern::garment::excesses;
 use pattern::{Garment, MaterialLine, Measurement};
 
-/// A triangle: sewn vertices, gradients of their hat functions in the pattern, rest area.
+/// Sewn vertices, gradients of their hat functions in the pattern, rest area.
 #[derive(Clone, Copy, Debug)]
 struct Triangle {
     vertices: [usize; 3],
@@ -20,7 +20,7 @@ struct Triangle {
     area_m2: f64,
 }
 
-/// A stretch of a controlled measurement between two points of the cloth.
+/// Stretch of a controlled measurement between two points of the cloth.
 #[derive(Clone, Debug)]
 struct Control {
     /// Sewn vertices and weights; their weighted sum is the vector from one point to the other.
@@ -28,14 +28,13 @@ struct Control {
     rest_m: f64,
 }
 
-/// A run of a controlled measurement: stretches one after the other. Their arcs are measured, and are to have the
-/// pattern's length.
+/// Stretches of a controlled measurement, one after the other. Their arcs are to have the pattern's length.
 #[derive(Clone, Debug)]
 struct Run {
     controls: Vec<Control>,
-    /// Arc lengths of the stretches in the pattern, m.
+    /// Arc lengths in the pattern.
     rest_m: Vec<f64>,
-    /// Arc lengths when the energy was set up, m.
+    /// Arc lengths when the energy was set up.
     first_m: Vec<f64>,
 }
 
@@ -45,32 +44,27 @@ geom::constants! {
     const SEAM_WEIGHT: f64 = 1.0;
 }
 
-/// Targets and loads of one step.
 #[derive(Clone, Copy, Debug)]
 pub struct Pull<'a> {
-    /// Target of each sewn vertex, m.
     pub targets: &'a [V3],
-    /// Load on each sewn vertex over the membrane stiffness, m.
+    /// Per sewn vertex, over the membrane stiffness, m.
     pub loads: &'a [V3],
     /// Rest shape of triangles and controls: 0 as they were at first, 1 as in the pattern, in between in proportion.
     pub share: f64,
     /// Factor on the lengths of controls, which compensates the error that their finite weight leaves.
     pub control: f64,
-    /// Length by which the two sides of open seams are drawn nearer, m.
     pub closer_m: f64,
 }
 
-/// The energy of a sewn garment, ready to be lowered.
+/// Energy of a sewn garment, ready to be lowered.
 pub struct Elastic {
     count: usize,
     triangles: Vec<Triangle>,
     runs: Vec<Run>,
-    /// Right stretch tensor of each triangle when the energy was set up: the root of `F^T F`.
+    /// Right stretch tensors when the energy was set up: roots of `F^T F`.
     first_stretch: Vec<Matrix2<f64>>,
     control_weight: f64,
-    /// Pairs of vertices of seams that are still open.
     open: Vec<[usize; 2]>,
-    /// Weight of each vertex's target.
     weights: Vec<f64>,
     /// Diagonal of the membrane's matrix: the stiffness with which its neighbours hold each vertex.
     held: Vec<f64>,
@@ -80,25 +74,21 @@ pub struct Elastic {
 /// Measurements that keep their pattern length.
 #[derive(Clone, Copy)]
 pub struct Controls<'a> {
-    /// The measurements.
     pub measurements: &'a [&'a Measurement],
     /// Width of the strip of cloth whose weight each has, m.
     pub weight: f64,
 }
 
 impl Controls<'_> {
-    /// No measurement.
     pub const NONE: Self = Self { measurements: &[], weight: 0.0 };
 }
 
 impl Elastic {
     /// Sets up a garment whose vertices are sewn together as `vertex_of` says. `bending` are pairs of sewn vertices
     /// with their entry of the bending matrix over the membrane stiffness. `open` are pairs of seams that are still
-    /// open, `weights` the weights of the vertices' targets.
+    /// open, `weights` those of the vertices' targets.
     ///
-    /// `None` if a triangle of the pattern has no area, or if the matrix is singular because no weight holds the
-    /// garment.
-    #[must_use]
+    /// `None` if a triangle of the pattern has no area, or if no weight holds the garment.
     pub fn new(
         garment: &Garment,
         vertex_of: &[usize],
@@ -153,7 +143,7 @@ impl Elastic {
         Some(Self { count: x.len(), triangles, runs, first_stretch, control_weight, open, weights, held, factor })
     }
 
-    /// Replaces the weights of the targets. Does nothing if they do not hold the garment.
+    /// Does nothing if the weights do not hold the garment.
     pub fn set_weights(&mut self, weights: Vec<f64>) {
         let added: Vec<f64> = weights.iter().zip(&self.weights).map(|(new, old)| new - old).collect();
         if self.factor.add_to_diagonal(&added) {
@@ -162,13 +152,11 @@ impl Elastic {
     }
 
     /// Stiffness of the membrane at each sewn vertex, in the unit of the targets' weights.
-    #[must_use]
     pub fn held(&self) -> &[f64] {
         &self.held
     }
 
     /// Greatest principal stretch less 1 at each vertex: the mean over its triangles, weighted by their areas.
-    #[must_use]
     pub fn stretches(&self, x: &[V3]) -> Vec<f64> {
         let (mut sums, mut areas) = (vec![0.0; x.len()], vec![0.0; x.len()]);
         for triangle in &self.triangles {
@@ -183,14 +171,11 @@ impl Elastic {
         sums.iter().zip(&areas).map(|(sum, area)| sum / area.max(f64::MIN_POSITIVE)).collect()
     }
 
-    /// Pairs of vertices of seams that are still open.
-    #[must_use]
     pub fn open(&self) -> &[[usize; 2]] {
         &self.open
     }
 
-    /// One local step (rotations and directions) and one global step (positions) from `x`; returns the new positions.
-    #[must_use]
+    /// Local step (rotations and directions), then global step (positions).
     pub fn step(&mut self, x: &[V3], pull: &Pull) -> Vec<V3> {
         let mut rhs = vec![V3::zeros(); self.count];
         for (t, first) in self.triangles.iter().zip(&self.first_stretch) {
@@ -248,7 +233,6 @@ impl Triangle {
 }
 
 impl Run {
-    /// A run of a measurement on cloth whose sewn vertices are at `x`.
     fn of(garment: &Garment, vertex_of: &[usize], run: &MaterialLine, x: &[V3]) -> Self {
         let flat: Vec<V3> = run.points.iter().map(|p| p.at_rest(&garment.rest).push(0.0)).collect();
         let (mut controls, mut ways) = (Vec::new(), Vec::new());
@@ -273,7 +257,7 @@ impl Run {
         Self { rest_m: arcs(&ways), first_m: arcs(&run.ways(x)), ..run }
     }
 
-    /// Chords of its stretches at `x`, with the lengths that give their arcs the wanted length.
+    /// Chords of the stretches, with the lengths that give their arcs the wanted length.
     fn chords<'a>(&'a self, x: &[V3], pull: &Pull) -> impl Iterator<Item = Chord<'a>> {
         let ways = self.ways(x);
         let excesses = self.excesses(&ways);
@@ -289,23 +273,19 @@ impl Run {
         self.controls.iter().map(|control| control.way(x)).collect()
     }
 
-    /// Squared arc less squared chord of each of these ways, m2.
+    /// Squared arc less squared chord of each way, m2.
     fn excesses(&self, ways: &[V3]) -> Vec<f64> {
         excesses(ways, &self.controls.iter().map(|control| control.rest_m).collect::<Vec<_>>())
     }
 }
 
-/// A stretch of a run as it lies.
 struct Chord<'a> {
     control: &'a Control,
-    /// Vector from one end to the other, m.
     way: V3,
-    /// Wanted length of that vector, m.
     length_m: f64,
 }
 
 impl Control {
-    /// Vector from one end to the other, m.
     fn way(&self, x: &[V3]) -> V3 {
         self.terms.iter().map(|&(v, weight)| x[v] * weight).sum()
     }

@@ -9,16 +9,15 @@ use geom::{TriMesh, V3};
 
 geom::constants! {
     "hybrid.form",
-    /// Height between the rings below the hip, m.
+    /// Height between the rings below the hip.
     const SKIRT_STEP_M: f64 = 0.06;
-    /// Height of the tube's lower end, m.
+    /// Height of the tube's lower end.
     const SKIRT_END_M: f64 = 0.03;
 }
 
-/// Rings with the same number of vertices, one below the other, or one farther out on a limb than the other.
+/// Rings of equally many vertices, one below the other, or one farther out on a limb than the other.
 #[derive(Clone, Debug)]
 pub struct Tube {
-    /// Vertices of the form.
     rings: Vec<[usize; RING]>,
 }
 
@@ -33,14 +32,11 @@ impl Tube {
         self.rings.iter().map(move |ring| ring[index.rem_euclid(RING as i32) as usize])
     }
 
-    /// The greatest parameter: that of the last ring.
-    #[must_use]
     pub fn end(&self) -> f64 {
         (self.rings.len() - 1) as f64
     }
 
-    /// The point on line `index` at parameter `along`: 0 on the first ring, 1 on the second, and so on; m.
-    #[must_use]
+    /// Point on line `index` at parameter `along`: 0 on the first ring, 1 on the second, and so on.
     pub fn at(&self, mesh: &TriMesh, index: i32, along: f64) -> V3 {
         let along = along.clamp(0.0, self.end());
         let below = (along as usize).min(self.rings.len() - 2);
@@ -49,8 +45,7 @@ impl Tube {
         a.lerp(&b, along - below as f64)
     }
 
-    /// Parameter of the point that lies `length_m` along line `index` beyond parameter `from`.
-    #[must_use]
+    /// Parameter of the point `length_m` along line `index` beyond parameter `from`.
     pub fn further(&self, mesh: &TriMesh, index: i32, from: f64, length_m: f64) -> f64 {
         let points: Vec<V3> = self.line(index).map(|v| mesh.positions[v]).collect();
         let (mut along, mut left) = (from.max(0.0), length_m);
@@ -67,8 +62,6 @@ impl Tube {
         self.end()
     }
 
-    /// Parameter at which line `index` reaches the height `z`, m, from above.
-    #[must_use]
     pub fn at_height(&self, mesh: &TriMesh, index: i32, z: f64) -> f64 {
         let heights: Vec<f64> = self.line(index).map(|v| mesh.positions[v].z).collect();
         let below = heights.iter().position(|&h| h <= z);
@@ -80,27 +73,24 @@ impl Tube {
     }
 }
 
-/// A surface to lay pieces on.
+/// Surface to lay pieces on.
 #[derive(Clone, Debug)]
 pub struct Form {
-    /// Triangle mesh; vertices of the control mesh keep their numbers.
+    /// Vertices of the control mesh keep their numbers.
     pub mesh: TriMesh,
-    /// Region of each triangle.
     pub regions: Vec<Region>,
-    /// Trunk from the axilla down.
+    /// From the axilla down.
     pub trunk: Tube,
-    /// Right and left arm from the armscye to the wrist.
+    /// Right and left, from the armscye to the wrist.
     pub arms: [Tube; 2],
-    /// Right and left leg from the thigh to the foot.
+    /// Right and left, from the thigh to the foot.
     pub legs: [Tube; 2],
 }
 
-/// Layers of the trunk from above.
 const TRUNK: [Layer; 6] = [Layer::Axilla, Layer::Chest, Layer::UnderBust, Layer::Waist, Layer::Abdomen, Layer::Hip];
 
 impl Form {
-    /// The form for tops, dresses and skirts.
-    #[must_use]
+    /// Form for tops, dresses and skirts.
     pub fn hung(body: &Body) -> Self {
         use Region::*;
         let regions = [Neck, Shoulders, Chest, Abdomen, UpperArmRight, ForearmRight, UpperArmLeft, ForearmLeft];
@@ -110,8 +100,7 @@ impl Form {
         form
     }
 
-    /// The form for trousers.
-    #[must_use]
+    /// Form for trousers.
     pub fn legs(body: &Body) -> Self {
         use Region::*;
         let mut form = Self::of(&body.control, &[Chest, Abdomen, Pelvis, ThighRight, ShankRight, ThighLeft, ShankLeft]);
@@ -119,8 +108,7 @@ impl Form {
         form
     }
 
-    /// The form for tops and trousers in one.
-    #[must_use]
+    /// Form for tops and trousers in one.
     pub fn suit(body: &Body) -> Self {
         use Region::*;
         let trunk = [Neck, Shoulders, Chest, Abdomen, Pelvis];

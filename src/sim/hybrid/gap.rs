@@ -10,33 +10,28 @@ use geom::section::{Outline, Plane, section};
 use geom::{TriMesh, V3};
 use pattern::{Garment, PieceMesh, Role};
 
-/// Girth of a draped garment beside that of the body, at a level of the body.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Closure {
-    /// Body level (`chest`, `hip`, ...).
+    /// `chest`, `hip`, ...
     pub level: String,
-    /// Height at which the garment was measured, m.
     pub height_m: f64,
-    /// Girth of the body at the level, m.
     pub body_girth_m: f64,
-    /// Length of the cloth round the trunk, m.
+    /// Length of the cloth round the trunk.
     pub garment_girth_m: f64,
 }
 
 impl Closure {
-    /// Girth of the body less that of the garment, m: negative where the garment is larger.
-    #[must_use]
+    /// Negative where the garment is larger.
     pub fn shortfall_m(&self) -> f64 {
         self.body_girth_m - self.garment_girth_m
     }
 }
 
-/// Girths at each level of the body that the garment goes round; positions in m.
+/// Girths at each level of the body that the garment goes round.
 ///
-/// If the style names the line of the pattern that goes round a level, the drape is measured along that line, wherever
-/// it lies: a plane would cut the cloth along another line. Without such a line the chest is measured from underarm to
-/// underarm, because a level plane would cut the armholes. The other levels are measured as a tape reads them.
-#[must_use]
+/// If the style names the line of the pattern that goes round a level, the drape is measured along it, wherever it
+/// lies: a plane would cut the cloth along another line. Else the chest is measured from underarm to underarm, because
+/// a level plane would cut the armholes, and the other levels as a tape reads them.
 pub fn closures(body: &Body, garment: &Garment, positions: &[V3]) -> Vec<Closure> {
     let trunk = trunk(garment, positions);
     let (levels, girths) = (&body.levels, &body.girths);
@@ -55,15 +50,12 @@ pub fn closures(body: &Body, garment: &Garment, positions: &[V3]) -> Vec<Closure
     levels.into_iter().filter_map(closure).collect()
 }
 
-/// A line round the trunk.
 struct Girth {
-    /// Mean height of the line, m.
     height_m: f64,
-    /// Length of the line, m.
     length_m: f64,
 }
 
-/// The line that the style names for a level; `None` where it names none on the cloth.
+/// Line that the style names for a level; `None` where it names none on the cloth.
 fn along_fit_line(garment: &Garment, level: &str, positions: &[V3]) -> Option<Girth> {
     let runs = &garment.fit_levels.iter().find(|fit| fit.level == level)?.runs;
     let heights: Vec<f64> = runs.iter().flat_map(|run| &run.points).map(|point| point.at(positions).z).collect();
@@ -72,8 +64,8 @@ fn along_fit_line(garment: &Garment, level: &str, positions: &[V3]) -> Option<Gi
     (!heights.is_empty()).then(|| Girth { height_m: height_m(), length_m })
 }
 
-/// The line from underarm to underarm, front and back. `None` for a garment without underarms, and where the line does
-/// not close, as below the neckline of a top without straps.
+/// Line from underarm to underarm, front and back. `None` for a garment without underarms, and where the line does not
+/// close, as below the neckline of a top without straps.
 fn at_underarm(garment: &Garment, positions: &[V3]) -> Option<Girth> {
     girth_lines::at_underarm(garment, &Sewn::at(garment, positions)).first()?;
     let underarms = underarms(garment);
@@ -84,7 +76,6 @@ fn at_underarm(garment: &Garment, positions: &[V3]) -> Option<Girth> {
     (!underarms.is_empty()).then_some(Girth { height_m, length_m })
 }
 
-/// Length in space of the line at height `v` across a piece, m.
 fn across_m(garment: &Garment, piece: &PieceMesh, v: f64, positions: &[V3]) -> f64 {
     let cut = |t: &[usize; 3]| -> f64 {
         let ends: Vec<V3> = (0..3)
@@ -99,7 +90,7 @@ fn across_m(garment: &Garment, piece: &PieceMesh, v: f64, positions: &[V3]) -> f
     garment.triangles[piece.triangles.clone()].iter().map(cut).sum()
 }
 
-/// All pieces but sleeves, sewn: the cloth on the trunk.
+/// All pieces but sleeves, sewn.
 fn trunk(garment: &Garment, positions: &[V3]) -> TriMesh {
     let sewn = sewing::welded(garment);
     let pieces = garment.pieces.iter().filter(|p| !matches!(p.role, Role::SleeveRight | Role::SleeveLeft));
@@ -111,7 +102,7 @@ fn trunk(garment: &Garment, positions: &[V3]) -> TriMesh {
     mesh
 }
 
-/// Girth of the cloth round the body's axis at a height, m, as a tape reads it: without folds, as for the body.
+/// Girth about the body's axis at a height, as a tape reads it: without folds, as for the body.
 fn girth_m(trunk: &TriMesh, z: f64) -> Option<f64> {
     let round = |outline: &Outline| {
         let (low, high) = outline.bounds();

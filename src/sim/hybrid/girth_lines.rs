@@ -12,32 +12,30 @@ use pattern::{Garment, Role};
 
 geom::constants! {
     "hybrid.ring",
-    /// Distance between the planes, m.
+    /// Distance between the planes.
     const STEP_M: f64 = 0.02;
     /// Distance of the last line round the trunk below the underarms, in edges: both sides cross the same edge of the
     /// seam there.
     const BELOW_UNDERARM: f64 = 0.3;
 }
 
-/// Crossing of a ring with an edge of the cloth: sewn vertices, and the share of the way from the first to the second.
+/// Crossing of a ring with an edge: sewn vertices, and the share of the way from the first to the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Cut {
     edge: [usize; 2],
     share: f64,
 }
 
-/// A closed line on the cloth.
 #[derive(Clone, Debug)]
 pub struct Ring {
     cuts: Vec<Cut>,
-    /// Length in the pattern, m.
+    /// Length in the pattern.
     pub rest_m: f64,
-    /// Number of its plane; the planes above and below have the next numbers. Without meaning for the line below the
+    /// Number of its plane; neighbouring planes have neighbouring numbers. Without meaning for the line below the
     /// underarms.
     level: i32,
 }
 
-/// A part of the cloth and the direction of the limb that it goes round.
 struct Limb {
     triangles: Vec<usize>,
     axis: V3,
@@ -45,17 +43,12 @@ struct Limb {
     is_trunk: bool,
 }
 
-/// Rings on a cloth.
 #[derive(Clone, Debug, Default)]
 pub struct Rings {
-    /// The rings, limb by limb.
     pub rings: Vec<Ring>,
-    /// Pairs of rings that lie next to each other on the cloth.
     pub beside: Vec<[usize; 2]>,
 }
 
-/// The rings of a sewn garment with positions `x` (m).
-#[must_use]
 pub fn rings(body: &Body, garment: &Garment, sewn: &Sewn, x: &[V3]) -> Rings {
     let (mut rings, mut beside) = (Vec::new(), Vec::new());
     for limb in limbs(body, garment) {
@@ -106,7 +99,6 @@ struct Segment {
     rest_m: f64,
 }
 
-/// The closed lines in which evenly spaced planes across a limb cut its cloth.
 fn cut(garment: &Garment, sewn: &Sewn, x: &[V3], limb: &Limb) -> Vec<Ring> {
     let mut levels: BTreeMap<i32, Vec<Segment>> = BTreeMap::new();
     for &t in &limb.triangles {
@@ -122,8 +114,7 @@ fn cut(garment: &Garment, sewn: &Sewn, x: &[V3], limb: &Limb) -> Vec<Ring> {
     levels.iter().flat_map(|(&level, segments)| chained(level, segments)).collect()
 }
 
-/// The closed line round the trunk just below the underarms, level in each piece; empty where it does not close.
-#[must_use]
+/// Closed line round the trunk just below the underarms, level in each piece; empty where it does not close.
 pub fn at_underarm(garment: &Garment, sewn: &Sewn) -> Vec<Ring> {
     let below_m = garment.edge_length_m * BELOW_UNDERARM;
     let mut segments = Vec::new();
@@ -137,14 +128,12 @@ pub fn at_underarm(garment: &Garment, sewn: &Sewn) -> Vec<Ring> {
     chained(0, &segments)
 }
 
-/// Intersection of a level with a triangle.
 fn segment(garment: &Garment, sewn: &Sewn, corners: [usize; 3], heights: [f64; 3], level: i32) -> Option<Segment> {
     let cuts: Vec<(Cut, V2)> = (0..3).filter_map(|k| crossing(garment, sewn, corners, heights, k, level)).collect();
     let [(a, from), (b, to)] = cuts.as_slice() else { return None };
     Some(Segment { ends: [*a, *b], rest_m: (to - from).norm() })
 }
 
-/// Intersection of side `k` of a triangle with a level, on the sewn cloth and in the pattern.
 fn crossing(
     garment: &Garment,
     sewn: &Sewn,
@@ -166,7 +155,6 @@ fn crossing(
     Some((cut, place))
 }
 
-/// Chains segments that meet in edges of the cloth to closed lines.
 fn chained(level: i32, segments: &[Segment]) -> Vec<Ring> {
     let mut at_edge: BTreeMap<[usize; 2], Vec<usize>> = BTreeMap::new();
     for (index, segment) in segments.iter().enumerate() {
@@ -194,7 +182,6 @@ fn chained(level: i32, segments: &[Segment]) -> Vec<Ring> {
     rings
 }
 
-/// Pairs of rings from `first` on, of levels that follow each other, that share vertices of the cloth.
 fn neighbours(rings: &[Ring], first: usize) -> Vec<[usize; 2]> {
     let mut pairs = Vec::new();
     for b in first..rings.len() {
@@ -208,32 +195,26 @@ fn neighbours(rings: &[Ring], first: usize) -> Vec<[usize; 2]> {
 }
 
 impl Ring {
-    /// Ends of the edges that it crosses.
     pub fn vertices(&self) -> impl Iterator<Item = usize> + '_ {
         self.cuts.iter().flat_map(|cut| cut.edge)
     }
 
-    /// True if this ring and another cross edges of the same vertex.
     fn is_beside(&self, other: &Self) -> bool {
         let own: BTreeSet<usize> = self.vertices().collect();
         other.vertices().any(|v| own.contains(&v))
     }
 
-    /// Its points on cloth with vertices at `x`, m.
     pub fn points<'a>(&'a self, x: &'a [V3]) -> impl Iterator<Item = V3> + 'a {
         self.cuts.iter().map(|cut| x[cut.edge[0]].lerp(&x[cut.edge[1]], cut.share))
     }
 
-    /// Its length on cloth with vertices at `x`, m.
-    #[must_use]
     pub fn length_m(&self, x: &[V3]) -> f64 {
         let points: Vec<V3> = self.points(x).collect();
         let next = points.iter().cycle().skip(1);
         points.iter().zip(next).map(|(a, b)| (b - a).norm()).sum()
     }
 
-    /// The plane through its middle and normal to its area vector; `None` for a line without area.
-    #[must_use]
+    /// Plane through the ring's middle, normal to its area vector; `None` for a line without area.
     pub fn plane(&self, x: &[V3]) -> Option<Plane> {
         let points: Vec<V3> = self.points(x).collect();
         let middle = points.iter().sum::<V3>() / points.len() as f64;
@@ -253,19 +234,16 @@ mod tests {
 
     const COUNT: usize = 48;
 
-    /// A ring over its own vertices.
     fn ring(rest_m: f64) -> Rings {
         let cuts = (0..COUNT).map(|v| Cut { edge: [v, v], share: 0.0 }).collect();
         Rings { rings: vec![Ring { cuts, rest_m, level: 0 }], beside: vec![] }
     }
 
-    /// A level circle of vertices, m.
     fn circle(radius: f64, z: f64) -> Vec<V3> {
         let direction = |k: usize| (k as f64 / COUNT as f64 * TAU).sin_cos();
         (0..COUNT).map(direction).map(|(sin, cos)| V3::new(radius * cos, radius * sin, z)).collect()
     }
 
-    /// Inset at the first vertex, m.
     fn inset(insets: &Insets) -> f64 {
         insets.of_vertices(vec![0.0; COUNT], &[])[0]
     }

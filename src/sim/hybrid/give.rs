@@ -5,40 +5,33 @@
 
 geom::constants! {
     "hybrid.give",
-    /// Correction of an inset per stretch, m: a share of the radius of trunk and limbs.
+    /// Correction of an inset per stretch: a share of the radius of trunk and limbs.
     const GAIN_M: f64 = 0.06;
     /// Stretch beyond which cloth that lies on the body counts as tight: its weight stretches hanging cloth by less.
     const TIGHT: f64 = 0.02;
-    /// Greatest inset, m: with more an arm would have no inside left.
+    /// Greatest inset: with more an arm would have no inside left.
     const MOST_M: f64 = 0.04;
     /// Rounds of averaging with neighbours: the stretches of single triangles fluctuate.
     const SHARED: u32 = 4;
 }
 
-/// Insets of sewn vertices, m.
 #[derive(Clone, Debug)]
 pub struct Give {
-    /// Inset of each vertex, m.
     pub now_m: Vec<f64>,
     /// True for vertices that the body gives way to.
     gives: Vec<bool>,
-    /// True for vertices that were tight at the last judgement.
     was_tight: Vec<bool>,
 }
 
-/// The cloth as it lies on the body.
 pub struct Lying<'a> {
     /// Greatest principal stretch less 1 at each vertex.
     pub stretches: &'a [f64],
     /// True for vertices that lie on the body with its present insets.
     pub touches: &'a [bool],
-    /// Edges of the cloth.
     pub sides: &'a [([usize; 2], f64)],
 }
 
 impl Give {
-    /// Zero insets for `count` vertices.
-    #[must_use]
     pub fn new(count: usize) -> Self {
         Self { now_m: vec![0.0; count], gives: vec![false; count], was_tight: vec![false; count] }
     }
@@ -53,7 +46,6 @@ impl Give {
         self.gives = (0..shared.len()).map(|v| self.now_m[v] > 0.0 || lasts(v)).collect();
     }
 
-    /// Corrects the insets until the cloth that the body gives way to is stretched by just `share`.
     pub fn correct(&mut self, lying: &Lying, share: f64) {
         let shared = lying.shared();
         for (v, now) in self.now_m.iter_mut().enumerate().filter(|(v, _)| self.gives[*v]) {
@@ -66,7 +58,6 @@ impl Give {
 }
 
 impl Lying<'_> {
-    /// Stretches averaged with those of neighbours.
     fn shared(&self) -> Vec<f64> {
         let mut shared = self.stretches.to_vec();
         for _ in 0..SHARED {
@@ -87,7 +78,6 @@ impl Lying<'_> {
 mod tests {
     use super::*;
 
-    /// A strip of ten vertices.
     fn sides() -> Vec<([usize; 2], f64)> {
         (1..10).map(|v| ([v - 1, v], 0.01)).collect()
     }

@@ -9,10 +9,9 @@ use geom::{V2, V3};
 /// Maps a triangulated disc into the plane. Boundary vertices lie where `fixed` says (Dirichlet condition), every other
 /// one at the weighted mean of its neighbours, `sum_j w_ij (u_i - u_j) = 0`.
 ///
-/// The weights are those of the cotangent Laplacian, `w_ij = (cot a + cot b) / 2`. A weight that is not positive is
-/// replaced by the mean of the edge's two mean value weights, which is positive. `None` if a vertex is connected to no
-/// boundary, or if two vertices coincide.
-#[must_use]
+/// Weights are those of the cotangent Laplacian, `w_ij = (cot a + cot b) / 2`. One that is not positive is replaced by
+/// the mean of the edge's two mean value weights, which is positive. `None` if a vertex is connected to no boundary, or
+/// if two vertices coincide.
 pub fn map(positions: &[V3], triangles: &[[usize; 3]], fixed: &BTreeMap<usize, V2>) -> Option<Vec<V2>> {
     let mut row = vec![usize::MAX; positions.len()];
     let free: Vec<usize> = (0..positions.len()).filter(|v| !fixed.contains_key(v)).collect();
@@ -49,7 +48,6 @@ pub fn map(positions: &[V3], triangles: &[[usize; 3]], fixed: &BTreeMap<usize, V
     mapped.iter().all(|u| u.iter().all(|c| c.is_finite())).then_some(mapped)
 }
 
-/// Positive weight of each edge.
 fn weights(positions: &[V3], triangles: &[[usize; 3]]) -> BTreeMap<[usize; 2], f64> {
     // Cotangent sum and mean value sum of each edge.
     let mut sums: BTreeMap<[usize; 2], [f64; 2]> = BTreeMap::new();
@@ -70,8 +68,6 @@ fn weights(positions: &[V3], triangles: &[[usize; 3]]) -> BTreeMap<[usize; 2], f
     sums.into_iter().map(|(edge, [cot, mean_value])| (edge, if cot > 0.0 { cot } else { mean_value })).collect()
 }
 
-/// Number of triangles that are not counter-clockwise.
-#[must_use]
 pub fn flips(mapped: &[V2], triangles: &[[usize; 3]]) -> usize {
     let area = |t: &&[usize; 3]| (mapped[t[1]] - mapped[t[0]]).perp(&(mapped[t[2]] - mapped[t[0]]));
     triangles.iter().filter(|t| area(t) <= 0.0).count()
@@ -97,7 +93,6 @@ mod tests {
         }
     }
 
-    /// An L, three squares of side 6 steps, whose inner corner is concave; its boundary in order.
     fn concave() -> (Vec<V2>, Vec<[usize; 3]>, Vec<usize>) {
         let (rest, triangles) = sheet(12, 12, 1.0);
         let kept: Vec<[usize; 3]> = triangles

@@ -12,54 +12,47 @@ use geom::{TriMesh, V2, V3};
 
 geom::constants! {
     "hybrid.inset",
-    /// Gain of a correction: the share applied of the inset that the stretch of a ring asks for.
+    /// Share applied of the inset that the stretch of a ring asks for.
     const GAIN: f64 = 0.3;
-    /// Inset that a ring may come to need in addition to the judged one, m. A tape is straighter than the body, the
-    /// cloth beside a ring pulls at it, and over a bust the front is tight before the back is.
+    /// Inset that a ring may come to need in addition to the judged one. A tape is straighter than the body, the cloth
+    /// beside a ring pulls at it, and over a bust the front is tight before the back is.
     const DOUBT_M: f64 = 20e-3;
-    /// Least inset of a ring that was too small once, m: it may become too small again.
+    /// Least inset of a ring that was too small once: it may become too small again.
     const LEAST_INSET_M: f64 = 1e-6;
-    /// Growth of a ring's inset between two judgements, m, for a garment that hangs from the shoulders and does not
-    /// slide.
+    /// Growth of a ring's inset between two judgements, for a garment that hangs from the shoulders and does not slide.
     const SLIP_M: f64 = 4e-3;
-    /// The same for a garment that only its rings hold up, m: with more it would slide over wider parts of the body.
+    /// As `SLIP_M`, for a garment that only its rings hold up: with more it would slide over wider parts of the body.
     const SLIP_ON_HIPS_M: f64 = 1e-3;
     /// Decrease of an inset per length of cloth away from its ring: over a slope of 0.1 the cloth is longer by 0.5 %.
     const FADE: f64 = 0.1;
-    /// Greatest difference of the insets of neighbouring rings, m.
+    /// Greatest difference of the insets of neighbouring rings.
     const STEEPEST_M: f64 = 6e-3;
     /// Greatest lack of a ring, as a share of its length. A greater one compares it with another part of the body, as
     /// the trunk together with an arm.
     const MOST_LACK: f64 = 0.5;
 }
 
-/// The insets of a garment's rings.
 #[derive(Default)]
 pub struct Insets {
     rings: Vec<Ring>,
-    /// Rings that lie next to each other.
     beside: Vec<[usize; 2]>,
-    /// Inset of each ring, m; 0 where the ring is large enough.
+    /// Inset of each ring; 0 where it is large enough.
     now_m: Vec<f64>,
-    /// Greatest inset of each ring, m; 0 where the ring must not yield.
+    /// Greatest inset of each ring; 0 where it must not yield.
     most_m: Vec<f64>,
-    /// Growth of each inset between two judgements, m.
+    /// Growth of each inset between two judgements.
     slip_m: f64,
 }
 
-/// Distance and stretch with which a ring fits.
 #[derive(Clone, Copy, Debug)]
 pub struct Fit {
-    /// Distance of the cloth from the skin, m.
     pub offset_m: f64,
-    /// Stretch that the ring may have.
     pub share: f64,
 }
 
 impl Insets {
-    /// Judges which rings are too small, and the insets that they need. Positions `x` are in m; `is_hung` is true of a
-    /// garment that hangs from the shoulders.
-    #[must_use]
+    /// Judges which rings are too small, and the insets that they need. `is_hung` is true of a garment that hangs from
+    /// the shoulders.
     pub fn judged(lines: Rings, body: &TriMesh, x: &[V3], fit: Fit, is_hung: bool) -> Self {
         let Rings { rings, beside } = lines;
         let slip_m = if is_hung { SLIP_M } else { SLIP_ON_HIPS_M };
@@ -79,7 +72,7 @@ impl Insets {
         }
     }
 
-    /// Inset that each ring needs, m: the girth of the body inside the ring less the length of its cloth, over a turn.
+    /// Inset that each ring needs, m: the girth of the body inside less the length of the cloth, over a turn.
     fn lacks(&self, body: &TriMesh, x: &[V3], fit: Fit) -> Vec<f64> {
         let Fit { offset_m, share } = fit;
         let lack = |ring: &Ring| {
@@ -97,7 +90,7 @@ impl Insets {
         lacks
     }
 
-    /// Corrects the insets of rings that were judged too small, until their cloth is stretched by just `share`.
+    /// Corrects the insets of rings judged too small, until their cloth is stretched by just `share`.
     pub fn correct(&mut self, x: &[V3], share: f64) {
         if self.now_m.iter().all(|inset| *inset == 0.0) {
             return;
@@ -117,9 +110,8 @@ impl Insets {
         }
     }
 
-    /// Inset at each sewn vertex, m: the greatest of its own, those of its rings, and those of other vertices less
-    /// [`FADE`] times the distance over the cloth. `sides` are the cloth's edges with their lengths in the pattern, m.
-    #[must_use]
+    /// Greatest of a sewn vertex's own inset, those of its rings, and those of other vertices less [`FADE`] times the
+    /// distance over the cloth, m. `sides` are the cloth's edges with their lengths in the pattern, m.
     pub fn of_vertices(&self, own_m: Vec<f64>, sides: &[([usize; 2], f64)]) -> Vec<f64> {
         let mut insets = own_m;
         for (ring, now) in self.rings.iter().zip(&self.now_m) {
@@ -142,7 +134,7 @@ impl Insets {
     }
 }
 
-/// Girth of the parts of the body inside a ring, m. A part is inside if it contains the ring's middle or has its own
+/// Girth of the parts of the body inside a ring. A part is inside if it contains the ring's middle or has its own
 /// middle within the ring, as both legs have in a skirt. `None` where no part is.
 fn inside_m(body: &TriMesh, ring: &Ring, x: &[V3]) -> Option<f64> {
     let plane = ring.plane(x)?;

@@ -9,41 +9,35 @@ use linalg::PairList;
 
 geom::constants! {
     "hybrid.layers",
-    /// Distance of the layers afterwards, m.
+    /// Distance of the layers afterwards.
     const APART_M: f64 = 5e-4;
-    /// Greatest displacement of a vertex in a round, m.
+    /// Greatest displacement of a vertex in a round.
     const STRIDE_M: f64 = 3e-3;
-    /// Rounds without fewer crossings after which it ends.
     const PATIENCE: u32 = 24;
-    /// Distance from a crossing within which cloth is tested again, m.
+    /// Distance from a crossing within which cloth is tested again.
     const NEAR_M: f64 = 0.05;
 }
 
-/// The cloth as a mesh that may intersect itself.
+/// Cloth as a mesh that may intersect itself.
 pub struct Layers {
     edges: PairList,
     triangles: Vec<[usize; 3]>,
 }
 
-/// Edges that pierced cloth, and those that still do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Parted {
-    /// Edges that pierced a triangle before.
     pub found: usize,
-    /// Edges that still pierce one after the last round.
     pub left: usize,
 }
 
 impl Layers {
-    /// The layers of sewn triangles.
-    #[must_use]
     pub fn new(triangles: &[[usize; 3]]) -> Self {
         let edges = PairList::new(triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]));
         Self { edges, triangles: triangles.to_vec() }
     }
 
-    /// Moves vertices `x` (m) until no edge pierces a triangle, in at most `rounds`; ends with the fewest crossings
-    /// that it found.
+    /// Moves vertices until no edge pierces a triangle, in at most `rounds`; ends with the fewest crossings that it
+    /// found.
     ///
     /// The end of an edge that has passed through less far goes back, and the triangle moves half of the way towards
     /// it. As cloth moves little between two separations, that is the end on the wrong side.
@@ -77,7 +71,6 @@ impl Layers {
         Parted { found, left: least }
     }
 
-    /// The triangles near crossings.
     fn near(&self, pierced: &[Intersection], x: &[V3]) -> Self {
         let places: Vec<V3> = pierced.iter().map(|Intersection { edge, .. }| (x[edge[0]] + x[edge[1]]) / 2.0).collect();
         let is_near = |v: usize| places.iter().any(|p| (x[v] - p).norm_squared() < NEAR_M * NEAR_M);

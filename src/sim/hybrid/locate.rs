@@ -2,7 +2,6 @@
 
 use geom::V2;
 
-/// Triangles of a plane mesh by place, in a uniform grid of buckets.
 pub struct Locator<'a> {
     points: &'a [V2],
     triangles: &'a [[usize; 3]],
@@ -13,8 +12,6 @@ pub struct Locator<'a> {
 }
 
 impl<'a> Locator<'a> {
-    /// Sorts counter-clockwise triangles into buckets, about one for each triangle.
-    #[must_use]
     pub fn new(points: &'a [V2], triangles: &'a [[usize; 3]]) -> Self {
         let low = points.iter().fold(V2::repeat(f64::MAX), |a, b| a.inf(b));
         let high = points.iter().fold(V2::repeat(f64::MIN), |a, b| a.sup(b));
@@ -37,9 +34,8 @@ impl<'a> Locator<'a> {
         [0, 1].map(|k| (((p[k] - self.low[k]) / self.cell).max(0.0) as usize).min(self.count[k] - 1))
     }
 
-    /// The triangle that contains a point, or the nearest of those about it, with barycentric weights clamped to be not
+    /// Triangle that contains a point, or the nearest of those about it, with barycentric weights clamped to be not
     /// negative.
-    #[must_use]
     pub fn locate(&self, p: V2) -> Option<(usize, [f64; 3])> {
         let [column, row] = self.bucket(p);
         let most = self.count[0].max(self.count[1]);

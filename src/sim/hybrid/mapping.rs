@@ -24,28 +24,24 @@ use pattern::{Garment, PieceMesh, Role};
 
 geom::constants! {
     "hybrid.mapping",
-    /// Points on each edge of the control mesh in path searches. Odd, so that an edge across the median plane has its
-    /// middle.
+    /// Points on each edge in path searches. Odd, so that an edge across the median plane has its middle.
     pub const PATH_POINTS: usize = 9;
     /// Cosine beyond which a face looks away from a piece's side, and the piece does not run over it.
     const AWAY: f64 = 0.4;
 }
 
-/// A garment on the surface of a form.
 #[derive(Clone, Debug)]
 pub struct OnForm {
-    /// World position of each garment vertex, m; the two sides of a seam coincide.
+    /// Positions of the garment vertices; the two sides of a seam coincide.
     pub positions: Vec<V3>,
-    /// Number of triangles whose outside still faces the form.
+    /// Triangles whose outside still faces the form.
     pub flips: usize,
     /// Faces of the form under each piece; pieces that lie side by side are joined.
     pub patches: Vec<Vec<usize>>,
 }
 
-/// Lays a garment on the form of its kind.
-///
-/// # Errors
-/// [`SimError::CannotPlace`] and [`SimError::CannotMap`], both before the long computations.
+/// Lays a garment on the form of its kind. Fails with [`SimError::CannotPlace`] and [`SimError::CannotMap`] before the
+/// long computations.
 pub fn map(body: &Body, garment: &Garment) -> Result<OnForm, SimError> {
     let assembly = assemble(garment);
     let joined = &assembly.garment;
@@ -78,8 +74,8 @@ pub fn map(body: &Body, garment: &Garment) -> Result<OnForm, SimError> {
     Ok(OnForm { positions, flips, patches })
 }
 
-/// The features of a piece with their nodes of the path graph. A feature on the node of the one before is left out, as
-/// at the sides of a waist that miss each other by a millimetre.
+/// Features of a piece with their nodes. A feature on the node of the one before is left out, as at the sides of a
+/// waist that miss each other by a millimetre.
 fn on_nodes(graph: &PathGraph, mut piece: Mapped) -> (Mapped, Vec<usize>) {
     let nodes: Vec<usize> = piece.features.iter().map(|f| graph.nearest(&f.place, |_| true).unwrap_or(0)).collect();
     let n = nodes.len();
@@ -88,25 +84,20 @@ fn on_nodes(graph: &PathGraph, mut piece: Mapped) -> (Mapped, Vec<usize>) {
     (piece, kept.into_iter().map(|k| nodes[k]).collect())
 }
 
-/// The closed outline of a piece on the form.
 struct Outline {
-    /// Nodes of the path graph.
     nodes: Vec<usize>,
     /// Place of each node on the circle, as a share of the whole turn.
     turns: Vec<f64>,
     boundary: Vec<OnBoundary>,
 }
 
-/// A boundary vertex of a piece.
 struct OnBoundary {
     vertex: usize,
-    /// Place in the common domain.
     domain: V2,
-    /// Place on the form, m.
     place: V3,
 }
 
-/// Paths on the form. Each is searched once: the two sides of a seam share it.
+/// Paths on the form, each searched once: the two sides of a seam share it.
 struct Paths<'a> {
     form: &'a Form,
     graph: &'a PathGraph<'a>,
@@ -114,7 +105,6 @@ struct Paths<'a> {
     /// Path by the two pieces that meet there and the two end nodes.
     found: BTreeMap<([usize; 2], [usize; 2]), Vec<usize>>,
     taken: Taken,
-    /// Node of each feature of each piece.
     ends: Vec<Vec<usize>>,
 }
 
@@ -175,7 +165,6 @@ impl<'a> Paths<'a> {
         }
     }
 
-    /// The path between two nodes that two pieces share.
     fn path(&mut self, garment: &Garment, pieces: [usize; 2], ends: [usize; 2]) -> Result<Vec<usize>, &'static str> {
         let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
         let key = (sorted(pieces), sorted(ends));
@@ -205,8 +194,7 @@ impl<'a> Paths<'a> {
     }
 }
 
-/// True if a piece of a role can touch a face, by the face's region and normal (5.2.2, figure 5-12).
-#[must_use]
+/// By the face's region and normal (5.2.2, figure 5-12).
 pub fn can_touch(role: Role, region: Region, normal: &V3) -> bool {
     let forward = normal.y / normal.norm();
     touches(role, region)
@@ -217,7 +205,6 @@ pub fn can_touch(role: Role, region: Region, normal: &V3) -> bool {
         }
 }
 
-/// True if a piece of a role can touch a region.
 fn touches(role: Role, region: Region) -> bool {
     use Region::*;
     let arm = |right: bool| match region {
@@ -242,7 +229,6 @@ fn touches(role: Role, region: Region) -> bool {
 }
 
 impl Outline {
-    /// Adds a stretch: `vertices` of the pattern along `path`, which spans the share `share` of the turn after `done`.
     fn add(&mut self, graph: &PathGraph, garment: &Garment, path: &[usize], vertices: &[usize], done: f64, share: f64) {
         let places: Vec<V3> = path.iter().map(|&node| graph.position(node)).collect();
         let arcs = cumulated(places.windows(2).map(|ends| (ends[1] - ends[0]).norm()));
@@ -265,7 +251,6 @@ impl Outline {
     }
 }
 
-/// Running sums, from 0.
 fn cumulated(lengths: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut sum = 0.0;
     std::iter::once(0.0)
@@ -276,21 +261,17 @@ fn cumulated(lengths: impl Iterator<Item = f64>) -> Vec<f64> {
         .collect()
 }
 
-/// The point of the unit circle after a share of a turn.
 fn on_circle(turn: f64) -> V2 {
     let (sin, cos) = (turn * std::f64::consts::TAU).sin_cos();
     V2::new(cos, sin)
 }
 
-/// Vertices on the form.
 struct Laid {
-    /// Places of the vertices on the form, m.
     x: Vec<V3>,
-    /// Unit normals of the form there.
     outwards: Vec<V3>,
 }
 
-/// Lays one piece on its patch; `None` if one of the two has no harmonic map.
+/// `None` if piece or patch has no harmonic map.
 fn lay(garment: &Garment, piece: &PieceMesh, outline: &Outline, patch: &Patch, laid: &mut Laid) -> Option<()> {
     let fixed = patch.boundary.iter().zip(&outline.turns).map(|(&v, &turn)| (v, on_circle(turn))).collect();
     let surface = harmonic::map(&patch.mesh.positions, &patch.mesh.triangles, &fixed)?;

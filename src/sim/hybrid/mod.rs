@@ -51,18 +51,13 @@ pub use welded_mesh::Sewn;
 use layers::Parted;
 use relax::{Push, Relaxation};
 
-/// Parameters of Hybrid-GS.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Params {
     /// Numbers of measurements that are not controlled, to see what their chi is then.
     pub uncontrolled: Vec<u32>,
-    /// Method by which the pop-up restores the size.
     pub popup: Backend,
-    /// Parameters of the steps of pop-up and drape.
     pub relax: RelaxParams,
-    /// Steps of the drape in which the cloth slides over the body.
     pub push_steps: u32,
-    /// Steps after these, in which contact is firm.
     pub firm_steps: u32,
 }
 
@@ -80,42 +75,35 @@ impl Default for Params {
 
 geom::constants! {
     "hybrid",
-    /// Rms movement in a step below which a drape counts as at rest, m.
+    /// Rms movement in a step below which a drape counts as at rest.
     const AT_REST_M: f64 = 1e-3;
-    /// Steps of the drape after which it is judged anew where the garment is too small: the garment slides.
+    /// Steps after which it is judged anew where the garment is too small: it slides.
     const JUDGE_EVERY: u32 = 20;
-    /// Number of last steps after each of which cloth that is large enough is lifted out of the body.
+    /// Last steps after each of which cloth that is large enough is lifted out of the body.
     const LIFTS: u32 = 3;
     /// Steps by which the drape goes on after layers were separated, and the greatest number of times that it does so.
     const AGAIN: u32 = 6;
     const MOST_AGAIN: u32 = 2;
     /// Mean error of the measurements above which a garment has not got its size.
     const OFF: f64 = 0.01;
-    /// Greatest descent of a garment's top, m: trousers and skirts that do not hold at the waist hold at the hips.
+    /// Greatest descent of a garment's top: trousers and skirts that do not hold at the waist hold at the hips.
     const MOST_DESCENT_M: f64 = 0.25;
-    /// Rounds in which layers that intersect are separated.
     const PARTINGS: u32 = 80;
 }
 
-/// Results of the phases, positions of the garment's vertices in metres.
 #[derive(Clone, Debug)]
 pub struct Phases {
-    /// The garment on the form, piece by piece; `None` where it cannot be mapped. It may have been drawn together all
-    /// the same.
+    /// Garment on the form, piece by piece; `None` where it cannot be mapped. It may have been drawn together all the
+    /// same.
     pub mapped: Option<OnForm>,
-    /// The drape; its earlier stages are the garment sewn, smoothed and lifted off the body, and popped up.
+    /// Earlier stages are the garment sewn, smoothed and lifted off the body, and popped up.
     pub drape: Drape,
 }
 
-/// Dresses a body in a garment.
-///
 /// `garments` are meshes of the same garment, coarse to fine; the drape is on the last. A garment whose corners have
 /// features on the body is mapped onto it by these. If its drape has a fault it is mapped again, with its layers kept
 /// apart. Any other garment, and one that still has a fault, is drawn together about the body on the mesh before the
 /// last (`draw`). The first drape without a fault is taken, failing that the best.
-///
-/// # Errors
-/// When a piece cannot be placed, is degenerate, its seams stay open, the positions diverge, or the monitor cancels.
 ///
 /// # Examples
 /// ```
@@ -146,9 +134,6 @@ pub fn simulate(
 }
 
 /// [`simulate`] with the results of all phases.
-///
-/// # Errors
-/// As there.
 pub fn phases(
     body: &Body,
     field: &DistanceField,
@@ -176,29 +161,25 @@ pub fn phases(
     }
 }
 
-/// The way in which a garment begins.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Start {
-    /// Mapped onto the body.
     Mapped,
-    /// Likewise; the layers are kept apart, and the body gives way to all tight cloth.
+    /// Mapped, with the layers kept apart; the body gives way to all tight cloth.
     Careful,
     /// Drawn together about the body, with the same care.
     Drawn,
 }
 
 impl Start {
-    /// In the order in which they are tried, until one ends without a fault.
+    /// Order in which they are tried, until one ends without a fault.
     const ALL: [Self; 3] = [Self::Mapped, Self::Careful, Self::Drawn];
 }
 
-/// A garment that is put on anew where it ends with a fault.
 struct Reshaping<'a, 'r, 'm> {
     dressing: Dressing<'a>,
-    /// Finest mesh of the garment.
     garment: &'a Garment,
     params: &'a Params,
-    /// The garment on the form; `None` where it cannot be mapped.
+    /// `None` where the garment cannot be mapped.
     mapped: Option<&'a OnForm>,
     run: &'r mut Simulation<'m>,
 }
@@ -234,8 +215,8 @@ impl Trial for Reshaping<'_, '_, '_> {
 }
 
 impl Reshaping<'_, '_, '_> {
-    /// Draws the pieces together about the body on the mesh before the last. Where their seams stay open on it, does so
-    /// on the coarsest: fewer vertices are caught by less.
+    /// Draws the pieces together about the body on the mesh before the last. Where seams stay open, does so on the
+    /// coarsest: fewer vertices are caught by less.
     fn drawn(&mut self) -> Result<Sewn, SimError> {
         let Dressing { wearer, layer, .. } = self.dressing;
         let (garments, fabric, garment) = (layer.garments, layer.fabric, self.garment);
@@ -253,8 +234,7 @@ impl Reshaping<'_, '_, '_> {
         }
     }
 
-    /// Pop-up and drape of a sewn garment. With care no cloth goes through cloth, and the body gives way to all tight
-    /// cloth.
+    /// Pop-up and drape. With care no cloth goes through cloth, and the body gives way to all tight cloth.
     fn dress(&mut self, sewn: &Sewn, takes_care: bool) -> Result<Drape, SimError> {
         let Dressing { wearer: Wearer { body, field }, skin, layer } = self.dressing;
         let (garment, params) = (self.garment, self.params);
@@ -305,21 +285,17 @@ impl Reshaping<'_, '_, '_> {
     }
 }
 
-/// End of a drape.
 struct Lain {
-    /// Rms movement of the vertices in the last step, m.
+    /// Rms movement of the vertices in the last step.
     moved_m: f64,
-    /// Edges that still pierce the cloth.
     crossings: usize,
 }
 
-/// E: mean chi over the measurements; positions of the garment's vertices in m.
 fn mean_chi(garment: &Garment, positions: &[V3]) -> f64 {
     let chi = |m: &Measurement| m.length_m(&garment.rest, positions) / m.l2d_m;
     garment.measurements.iter().map(chi).sum::<f64>() / garment.measurements.len() as f64
 }
 
-/// A run under way, which records and reports each step.
 struct Simulation<'a> {
     garment: &'a Garment,
     monitor: &'a mut dyn Monitor,
@@ -347,7 +323,6 @@ impl Simulation<'_> {
         self.lay(relaxation, body, sewn, params, 0.0)
     }
 
-    /// Lets the cloth slide over the body with a share of its weight, then with firm contact.
     fn lay(
         &mut self,
         relaxation: &mut Relaxation,
@@ -382,7 +357,6 @@ impl Simulation<'_> {
         }
     }
 
-    /// Reports pieces that are being drawn together: `x` are the positions of a coarser mesh's vertices, m.
     fn drawing(&mut self, coarse: &Garment, x: &[V3]) -> Result<(), SimError> {
         let iteration = self.history.len() as u32 + 1;
         let seam_gap_m = quality::seam_gap_m(coarse, x);
@@ -391,7 +365,6 @@ impl Simulation<'_> {
         if self.monitor.cancelled() { Err(SimError::Cancelled) } else { Ok(()) }
     }
 
-    /// Records and reports a step.
     fn record(
         &mut self,
         phase: &'static str,
@@ -415,7 +388,6 @@ impl Simulation<'_> {
     }
 }
 
-/// Constants of Hybrid-GS that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
     [
         assemble::CONSTANTS,

@@ -3,35 +3,29 @@
 
 use geom::{DistanceField, V3};
 
-/// A body with an offset and an inset for each sewn vertex.
 pub struct Obstacle<'a> {
     field: &'a DistanceField,
-    /// Distance from the skin at which cloth is pushed, m.
     offset_m: f64,
-    /// Inset of the body for each sewn vertex, m.
     insets_m: Vec<f64>,
     /// Place of each vertex at its last evaluation, and its distance from the skin there, m.
     seen: Vec<(V3, f64)>,
 }
 
 impl<'a> Obstacle<'a> {
-    /// The body without insets, for `count` vertices; it pushes at `offset_m` from the skin.
-    #[must_use]
+    /// Body without insets.
     pub fn new(field: &'a DistanceField, offset_m: f64, count: usize) -> Self {
         Self { field, offset_m, insets_m: vec![0.0; count], seen: vec![(V3::zeros(), f64::MIN); count] }
     }
 
-    /// Sets the inset of each vertex, m.
     pub fn shrink(&mut self, insets_m: Vec<f64>) {
         self.insets_m = insets_m;
     }
 
-    /// Depth of a vertex at `p` below where it is pushed (m, 0 outside), and the direction out.
+    /// Depth of a vertex below where it is pushed (m, 0 outside), and the direction out.
     pub fn contact(&mut self, vertex: usize, p: &V3) -> (f64, V3) {
         self.contact_at(self.offset_m, vertex, p)
     }
 
-    /// The same at another distance from the skin.
     pub fn contact_at(&mut self, offset_m: f64, vertex: usize, p: &V3) -> (f64, V3) {
         let reach = offset_m - self.insets_m[vertex];
         let (place, distance) = self.seen[vertex];

@@ -5,58 +5,44 @@ use std::collections::BTreeMap;
 use geom::V2;
 use pattern::{Garment, PieceMesh};
 
-/// The piece that a stretch of outline is sewn to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Partner {
-    /// No other piece: the edge stays free.
     Free,
-    /// A piece, by its index.
     Piece(usize),
 }
 
-/// A stretch of outline with one partner.
 #[derive(Clone, Debug)]
 pub struct Chain {
-    /// Piece that it is sewn to.
     pub partner: Partner,
-    /// Garment vertices counter-clockwise, both ends included.
+    /// Counter-clockwise, both ends included.
     pub vertices: Vec<usize>,
 }
 
 impl Chain {
-    /// Vector from its first to its last vertex in the piece's plane, m.
-    #[must_use]
     pub fn chord(&self, garment: &Garment) -> V2 {
         garment.rest[self.last()] - garment.rest[self.first()]
     }
 
-    /// Garment vertex at which it begins.
-    #[must_use]
     pub fn first(&self) -> usize {
         self.vertices[0]
     }
 
-    /// Garment vertex at which it ends.
-    #[must_use]
     pub fn last(&self) -> usize {
         self.vertices[self.vertices.len() - 1]
     }
 
-    /// Length in the piece's plane, m.
-    #[must_use]
+    /// In the piece's plane.
     pub fn length_m(&self, garment: &Garment) -> f64 {
         length_m(garment, &self.vertices)
     }
 }
 
-/// Length of a line of garment vertices in the piece's plane, m.
-#[must_use]
+/// In the piece's plane.
 pub fn length_m(garment: &Garment, vertices: &[usize]) -> f64 {
     vertices.windows(2).map(|ends| (garment.rest[ends[1]] - garment.rest[ends[0]]).norm()).sum()
 }
 
-/// Partner piece of each boundary edge of the garment, by its sorted ends.
-#[must_use]
+/// Partner piece of each boundary edge, by its sorted ends.
 pub fn partners(garment: &Garment) -> BTreeMap<[usize; 2], usize> {
     let piece_of = |v: usize| garment.pieces.iter().position(|p| p.vertices.contains(&v)).unwrap_or(usize::MAX);
     let mut partners = BTreeMap::new();
@@ -73,8 +59,7 @@ pub fn partners(garment: &Garment) -> BTreeMap<[usize; 2], usize> {
     partners
 }
 
-/// Boundary vertices of a piece, counter-clockwise; `None` when its outline is not one loop.
-#[must_use]
+/// Counter-clockwise; `None` when the outline is not one loop.
 pub fn boundary(garment: &Garment, piece: &PieceMesh) -> Option<Vec<usize>> {
     // Inner edges are traversed once in each direction and cancel.
     let mut edges: BTreeMap<[usize; 2], i32> = BTreeMap::new();
@@ -102,8 +87,7 @@ pub fn boundary(garment: &Garment, piece: &PieceMesh) -> Option<Vec<usize>> {
     (ring.len() == next.len()).then_some(ring)
 }
 
-/// Stretches of a piece's outline, counter-clockwise.
-#[must_use]
+/// Counter-clockwise.
 pub fn chains(ring: &[usize], partners: &BTreeMap<[usize; 2], usize>) -> Vec<Chain> {
     let n = ring.len();
     let partner = |i: usize| {

@@ -5,22 +5,16 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::path::PathGraph;
 use geom::{TriMesh, V3};
 
-/// A patch: a disc of triangles with its boundary.
 pub struct Patch {
-    /// Mesh of the patch; along a cut each side has its own copy of the vertices.
+    /// Along a cut each side has its own copy of the vertices.
     pub mesh: TriMesh,
-    /// Boundary vertices in the order of the loop that cut it out.
+    /// In the order of the loop that cut it out.
     pub boundary: Vec<usize>,
-    /// Face of the surface in which each triangle lies.
     pub face_of: Vec<usize>,
 }
 
-/// Cuts out the patch on the left of a closed loop of nodes, seen from outside.
-///
-/// A loop may run along a stretch twice, forth and back, which cuts a tube open.
-///
-/// # Errors
-/// When the loop crosses itself or does not bound a disc; the text says which.
+/// Cuts out the patch on the left of a closed loop of nodes, seen from outside. A loop may run along a stretch twice,
+/// forth and back, which cuts a tube open. Fails where the loop crosses itself or does not bound a disc.
 pub fn cut(graph: &PathGraph, nodes: &[usize]) -> Result<Patch, &'static str> {
     let barriers: BTreeSet<[usize; 2]> = steps(nodes).map(|[a, b]| [a.min(b), a.max(b)]).collect();
     let (triangles, face_of) = conforming(graph, &barriers)?;
@@ -42,7 +36,6 @@ pub fn cut(graph: &PathGraph, nodes: &[usize]) -> Result<Patch, &'static str> {
     Ok(Patch { mesh, boundary, face_of: kept.map(|t| face_of[t]).collect() })
 }
 
-/// Consecutive nodes of a closed loop.
 fn steps(nodes: &[usize]) -> impl Iterator<Item = [usize; 2]> + '_ {
     (0..nodes.len()).map(|i| [nodes[i], nodes[(i + 1) % nodes.len()]])
 }
@@ -75,7 +68,6 @@ fn conforming(graph: &PathGraph, barriers: &BTreeSet<[usize; 2]>) -> Result<Conf
     Ok((triangles, face_of))
 }
 
-/// Divides a convex polygon by chords that do not cross.
 fn divide(ring: Vec<usize>, chords: &[[usize; 2]]) -> Result<Vec<Vec<usize>>, &'static str> {
     let Some((&[a, b], rest)) = chords.split_first() else { return Ok(vec![ring]) };
     let place = |n: usize| ring.iter().position(|&m| m == n);
@@ -118,7 +110,6 @@ fn fill(graph: &PathGraph, mut ring: Vec<usize>) -> Vec<[usize; 3]> {
     triangles
 }
 
-/// Flood fill: true for triangles reached from the seeds without crossing a barrier.
 fn flood(
     triangles: &[[usize; 3]],
     across: &BTreeMap<[usize; 2], usize>,
@@ -143,10 +134,9 @@ fn flood(
     inside
 }
 
-/// The triangles inside, with vertices doubled along the barriers.
+/// Triangles inside, with vertices doubled along the barriers.
 struct Opened {
     positions: Vec<V3>,
-    /// New vertices of each triangle.
     corners: Vec<[usize; 3]>,
 }
 

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
 use geom::{TriMesh, V3};
 
-/// A triangle mesh whose edges carry extra nodes. Nodes are numbered: vertices first, then the points of each edge.
+/// Triangle mesh whose edges carry extra nodes. Nodes are numbered: vertices first, then the points of each edge.
 pub struct PathGraph<'a> {
     mesh: &'a TriMesh,
     /// Points on each edge [T: subdivision level].
@@ -20,22 +20,19 @@ pub struct PathGraph<'a> {
     faces_of_vertex: Vec<Vec<usize>>,
 }
 
-/// Obstacles for later paths: the nodes of earlier paths and their chords through faces. Paths that divide a surface
-/// into patches meet in their ends only.
+/// Nodes of earlier paths and their chords through faces, as obstacles. Paths that divide a surface into patches meet
+/// in their ends only.
 #[derive(Clone, Debug, Default)]
 pub struct Taken {
     nodes: BTreeSet<usize>,
-    /// Chords through each face, as pairs of nodes.
     chords: BTreeMap<usize, Vec<[usize; 2]>>,
 }
 
 impl Taken {
-    /// Keeps later paths off a node.
     pub fn add_node(&mut self, node: usize) {
         self.nodes.insert(node);
     }
 
-    /// Keeps later paths off a path.
     pub fn add(&mut self, graph: &PathGraph, path: &[usize]) {
         self.nodes.extend(path);
         for ends in path.windows(2) {
@@ -46,7 +43,6 @@ impl Taken {
         }
     }
 
-    /// True if the chord from `a` to `b` through a face crosses one that is taken.
     fn crosses(&self, graph: &PathGraph, face: usize, a: usize, b: usize) -> bool {
         let Some(chords) = self.chords.get(&face) else { return false };
         let ring = graph.ring(face);
@@ -57,18 +53,14 @@ impl Taken {
     }
 }
 
-/// Location of a node on the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
-    /// On a vertex.
     Vertex(usize),
-    /// On an edge: its number, and which of its points.
+    /// Number of the edge, and which of its points.
     Edge(usize, usize),
 }
 
 impl<'a> PathGraph<'a> {
-    /// Sets `points` nodes on each edge of a mesh.
-    #[must_use]
     pub fn new(mesh: &'a TriMesh, points: usize) -> Self {
         let mut number = BTreeMap::new();
         let mut edges = Vec::new();
@@ -91,26 +83,18 @@ impl<'a> PathGraph<'a> {
         Self { mesh, points, edges, sides, faces_of_edge, faces_of_vertex }
     }
 
-    /// Number of nodes.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.mesh.positions.len() + self.edges.len() * self.points
     }
 
-    /// True if there are no nodes.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The coarse surface on which paths run.
-    #[must_use]
     pub fn mesh(&self) -> &TriMesh {
         self.mesh
     }
 
-    /// Location of a node on the mesh.
-    #[must_use]
     pub fn place(&self, node: usize) -> Place {
         match node.checked_sub(self.mesh.positions.len()) {
             None => Place::Vertex(node),
@@ -118,8 +102,6 @@ impl<'a> PathGraph<'a> {
         }
     }
 
-    /// Position of a node, m.
-    #[must_use]
     pub fn position(&self, node: usize) -> V3 {
         match self.place(node) {
             Place::Vertex(v) => self.mesh.positions[v],
@@ -130,8 +112,6 @@ impl<'a> PathGraph<'a> {
         }
     }
 
-    /// Faces that a node touches.
-    #[must_use]
     pub fn faces(&self, node: usize) -> &[usize] {
         match self.place(node) {
             Place::Vertex(v) => &self.faces_of_vertex[v],
@@ -139,7 +119,7 @@ impl<'a> PathGraph<'a> {
         }
     }
 
-    /// Nodes of an edge in order from corner `a`, both ends included.
+    /// In order from corner `from`, both ends included.
     pub(super) fn edge_nodes(&self, edge: usize, from: usize) -> Vec<usize> {
         let [a, b] = self.edges[edge];
         let first = self.mesh.positions.len() + edge * self.points;
@@ -153,7 +133,6 @@ impl<'a> PathGraph<'a> {
     }
 
     /// Nodes round a face, counter-clockwise from its first corner.
-    #[must_use]
     pub fn ring(&self, face: usize) -> Vec<usize> {
         let t = self.mesh.triangles[face];
         (0..3)
@@ -165,23 +144,20 @@ impl<'a> PathGraph<'a> {
             .collect()
     }
 
-    /// The node of the given faces that is nearest to a point; `None` without faces.
-    #[must_use]
+    /// Node of the given faces nearest to a point; `None` without faces.
     pub fn nearest(&self, point: &V3, faces: impl Fn(usize) -> bool) -> Option<usize> {
         let distance = |node: usize| (self.position(node) - point).norm_squared();
         let candidates = (0..self.len()).filter(|&node| self.faces(node).iter().any(|&f| faces(f)));
         candidates.min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
     }
 
-    /// The full search [T Algorithm 5.2]: Dijkstra over every face, until `to` is reached.
-    #[must_use]
+    /// Full search [T Algorithm 5.2]: Dijkstra over every face, until `to` is reached.
     pub fn shortest(&self, from: usize, to: usize) -> Option<Vec<usize>> {
         self.search(from, to, |_| true, |_| 0.0, &Taken::default())
     }
 
-    /// The fast, oriented search (5.2.2): A* over the faces that the piece can touch, clear of taken paths. The
-    /// straight distance to the goal is the lower bound of the length left.
-    #[must_use]
+    /// Fast, oriented search (5.2.2): A* over the faces that the piece can touch, clear of taken paths, with the
+    /// straight distance to the goal as lower bound.
     pub fn shortest_within(
         &self,
         from: usize,
@@ -240,8 +216,8 @@ impl<'a> PathGraph<'a> {
         None
     }
 
-    /// Calls `visit` for the nodes that a path can go to from `node` within a face: the next ones along its own sides,
-    /// all on the others.
+    /// Visits the nodes that a path can go to from `node` within a face: the next ones along its own sides, all on the
+    /// others.
     fn for_neighbours(&self, face: usize, node: usize, mut visit: impl FnMut(usize)) {
         let vertices = self.mesh.positions.len();
         let t = self.mesh.triangles[face];
@@ -282,13 +258,10 @@ impl<'a> PathGraph<'a> {
         }
     }
 
-    /// Length of a path, m.
-    #[must_use]
     pub fn length(&self, path: &[usize]) -> f64 {
         path.windows(2).map(|ends| (self.position(ends[1]) - self.position(ends[0])).norm()).sum()
     }
 
-    /// The edge on which two nodes both lie.
     pub(super) fn common_edge(&self, a: usize, b: usize) -> Option<usize> {
         let on = |node: usize, edge: usize| match self.place(node) {
             Place::Vertex(v) => self.edges[edge].contains(&v),

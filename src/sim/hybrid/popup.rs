@@ -12,25 +12,20 @@ use pattern::Garment;
 
 geom::constants! {
     "hybrid.popup",
-    /// Number of steps in which it grows, and in which it then comes to rest.
+    /// Steps in which it grows, and in which it then comes to rest.
     const STEPS: [u32; 2] = [12, 16];
-    /// Greatest number of corrections of the controls in a step.
     const CORRECTIONS: u32 = 2;
     /// First guess for the change of the measurements' mean per change of all controls' lengths.
     const RESPONSE: f64 = 0.7;
-    /// Least and greatest response that a correction may find, over that guess.
+    /// Least and greatest response that a correction may find, over `RESPONSE`.
     const FOUND: [f64; 2] = [0.3, 2.0];
-    /// Error that counts as none.
     const NONE: f64 = 2e-5;
 }
 
-/// Number of steps of the pop-up.
-#[must_use]
 pub fn steps() -> u32 {
     STEPS[0] + STEPS[1]
 }
 
-/// Method by which the size is restored.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Backend {
@@ -41,20 +36,14 @@ pub enum Backend {
     Pyramid,
 }
 
-/// A sewn garment.
 #[derive(Clone, Copy)]
 pub struct Cloth<'a> {
-    /// The garment as cut, whose size is restored.
     pub garment: &'a Garment,
-    /// The same with the seams welded.
     pub sewn: &'a Sewn,
 }
 
-/// Pops a garment up with one of the backends. Calls `each` with it and the rms movement (m) after every step, which
-/// may end it early with an error. `error` gives the signed mean error of the garment's size.
-///
-/// # Errors
-/// Those of `each`.
+/// Calls `each` with the garment and the rms movement (m) after every step, which may end it early with an error.
+/// `error` gives the signed mean error of the garment's size.
 pub fn reconstruct<E>(
     backend: Backend,
     cloth: Cloth,
@@ -81,13 +70,10 @@ pub fn reconstruct<E>(
     }
 }
 
-/// Pops up as rigid as possible.
-///
 /// Triangles and controls grow from the size at which they were sewn to that of the pattern in equal steps. Until then
-/// the body keeps its size and pushes the cloth out, or sleeves would swing through the arms while they grow. After
-/// that it yields where the garment is too small. A step may overshoot the size by its momentum or by the softness of
-/// the controls, or lead away from it. Such a step is repeated with corrected lengths of the controls, by the secant
-/// method.
+/// the body keeps its size and pushes the cloth out, or sleeves would swing through the arms. After that it yields
+/// where the garment is too small. A step may overshoot the size by its momentum or by the softness of the controls, or
+/// lead away from it: it is repeated with corrected lengths of the controls, by the secant method.
 fn rigid<E>(
     cloth: Cloth,
     relaxation: &mut Relaxation,

@@ -9,38 +9,31 @@ use std::collections::BTreeMap;
 
 use geom::{V2, V3};
 
-/// A vertex in the coordinates of its ring.
 #[derive(Clone, Debug)]
 struct Apex {
     vertex: usize,
-    /// Its neighbours in cyclic order.
+    /// Neighbours in cyclic order.
     ring: Vec<usize>,
     /// Mean value weight of each neighbour (5.7), with sum 1.
     weights: Vec<f64>,
-    /// Length of the edge to each neighbour in the pattern (5.8), m.
+    /// Length of the edge to each neighbour in the pattern (5.8).
     lengths_m: Vec<f64>,
 }
 
-/// A corner of a triangle in the pattern.
 #[derive(Clone, Copy)]
 struct Corner {
-    /// Angle, rad.
+    /// rad.
     angle: f64,
-    /// Length of the side to the next corner, m.
     next_m: f64,
-    /// Length of the side to the last corner, m.
     last_m: f64,
 }
 
-/// The pyramids of the inner vertices of a mesh.
 #[derive(Clone, Debug)]
 pub struct Pyramids {
     apexes: Vec<Apex>,
 }
 
-/// The plane of a ring.
 struct Base {
-    /// Unit normal of the plane.
     normal: V3,
     /// Mean of the ring.
     centre: V3,
@@ -55,13 +48,12 @@ impl Base {
         Some(Self { normal: area.try_normalize(1e-18)?, centre })
     }
 
-    /// Projection of a vector onto the plane.
     fn flat(&self, way: &V3) -> V3 {
         way - self.normal * way.dot(&self.normal)
     }
 }
 
-/// Mean value weights (5.7) of the vectors from a point to its ring, in one plane; `None` if their sum is not positive.
+/// Weights (5.7) of the vectors from a point to its ring, in one plane; `None` if their sum is not positive.
 fn mean_value_weights(arms: &[V3]) -> Option<Vec<f64>> {
     let n = arms.len();
     let half_tangent = |i: usize| {
@@ -76,8 +68,7 @@ fn mean_value_weights(arms: &[V3]) -> Option<Vec<f64>> {
 }
 
 impl Pyramids {
-    /// The pyramids of a mesh with the weights and lengths of the shape `x` itself, m: its coordinates.
-    #[must_use]
+    /// Takes weights and lengths from the shape `x` itself.
     pub fn of_shape(triangles: &[[usize; 3]], x: &[V3]) -> Self {
         let rings = rings(triangles, x.len());
         let apex = |(vertex, ring): (usize, Vec<usize>)| {
@@ -90,12 +81,9 @@ impl Pyramids {
         Self { apexes: rings.into_iter().filter_map(apex).collect() }
     }
 
-    /// The pyramids of a sewn garment of `count` vertices with the weights and lengths of its pattern: `rest` are the
-    /// corners of each triangle in its piece's plane, m.
+    /// Takes weights and lengths from the pattern: `rest` are the corners of each triangle in its piece's plane.
     ///
-    /// Round a vertex on a seam the triangles of its pieces are laid side by side with their own angles, whatever these
-    /// add up to.
-    #[must_use]
+    /// Round a vertex on a seam the triangles are laid side by side with their own angles, whatever these add up to.
     pub fn of_pattern(triangles: &[[usize; 3]], rest: &[[V2; 3]], count: usize) -> Self {
         let mut fans = vec![BTreeMap::new(); count];
         for (t, at) in triangles.iter().zip(rest) {
@@ -122,9 +110,8 @@ impl Pyramids {
 
     /// One round of the reconstruction: every vertex moves to the apex of its pyramid over its ring in the shape `x`.
     ///
-    /// The angle to each neighbour is the mean of that in the shape `x` and that of an edge of the wanted length (5.9).
-    /// The wanted length lies `share` of the way from the present length to that of the pattern.
-    #[must_use]
+    /// The angle to each neighbour is the mean of that in `x` and that of an edge of the wanted length (5.9), which
+    /// lies `share` of the way from the present length to that of the pattern.
     pub fn rebuild(&self, x: &[V3], share: f64) -> Vec<V3> {
         let mut next = x.to_vec();
         for apex in &self.apexes {
@@ -158,7 +145,7 @@ impl Apex {
     }
 }
 
-/// The closed rings of inner vertices, counter-clockwise.
+/// Closed rings of inner vertices, counter-clockwise.
 fn rings(triangles: &[[usize; 3]], count: usize) -> Vec<(usize, Vec<usize>)> {
     let mut next = vec![BTreeMap::new(); count];
     for t in triangles {
@@ -185,7 +172,6 @@ mod tests {
     use crate::laboratory::sheets::{hexagonal_sheet, noise};
     use geom::shapes::sphere;
 
-    /// A bumpy sheet.
     fn bumpy() -> (Vec<V3>, Vec<[usize; 3]>) {
         let (rest, triangles) = hexagonal_sheet(12, 10, 0.02);
         let x =

@@ -21,13 +21,12 @@ use geom::units::GRAVITY;
 use geom::{DistanceField, TriMesh, V3};
 use pattern::{Garment, Measurement};
 
-/// Parameters of the steps of pop-up and drape.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct RelaxParams {
-    /// Distance from the skin at which cloth is pushed, m.
+    /// Distance from the skin at which cloth is pushed.
     pub offset_m: f64,
-    /// Membrane stiffness by which gravity and bending are divided, N/m. Higher than that of any cloth at rest, to keep
-    /// the size.
+    /// Membrane stiffness by which gravity and bending are divided. Higher than that of any cloth at rest, to keep the
+    /// size.
     pub stiffness_n_m: f64,
     /// Weight of contact per area and over the stiffness, 1/m2.
     pub contact: f64,
@@ -36,18 +35,16 @@ pub struct RelaxParams {
     pub firm_contact: f64,
     /// Weight of the last place of a vertex without contact, likewise; it bounds the length of a step.
     pub hold: f64,
-    /// Weight of a control: that of a strip of cloth of this width along it, m.
+    /// Width of the strip of cloth along a control that gives its weight.
     pub control_width_m: f64,
-    /// Stretch of the cloth beyond which contact yields.
     pub yield_stretch: f64,
-    /// Least bending rigidity, N m: it keeps folds wider than the mesh's edges.
+    /// Least bending rigidity: it keeps folds wider than the mesh's edges.
     pub least_bending_nm: f64,
-    /// Share of the last step's displacement with which the next one begins (momentum). Slow modes, such as the forward
-    /// motion of a whole front, then take a few steps instead of dozens.
+    /// Share of the last displacement with which the next step begins. Slow modes, such as the forward motion of a
+    /// whole front, then take a few steps instead of dozens.
     pub momentum: f64,
     /// Steps between two updates of the contacts.
     pub refresh: u32,
-    /// Greatest displacement of a vertex in a step, m.
     pub stride_m: f64,
 }
 
@@ -69,7 +66,6 @@ impl Default for RelaxParams {
     }
 }
 
-/// A garment under way from the body's surface to its rest.
 pub struct Relaxation<'a> {
     params: RelaxParams,
     obstacle: Obstacle<'a>,
@@ -83,26 +79,23 @@ pub struct Relaxation<'a> {
     insets: Insets,
     /// Insets for tight cloth beside those of rings; `None` where the body gives way to rings alone.
     give: Option<Give>,
-    /// Edges of the cloth with their lengths in the pattern, m.
+    /// Edges with their lengths in the pattern, m.
     sides: Vec<([usize; 2], f64)>,
     walls: Walls,
     /// True for vertices that had the weight of contact at the last update.
     touching: Vec<bool>,
     /// True if that was the weight of firm contact.
     is_firm: bool,
-    /// Position of each sewn vertex, m.
     pub x: Vec<V3>,
-    /// Displacement of each vertex in the last step, m.
+    /// Displacement of each vertex in the last step.
     last: Vec<V3>,
     layers: Layers,
-    /// Factor on the lengths of controls.
     pub control: f64,
-    /// Height below which cloth lies on the feet and need not close round them, m.
+    /// Height below which cloth lies on the feet and need not close round them.
     feet_m: f64,
     steps: u32,
 }
 
-/// A state of a garment to which it can return.
 #[derive(Clone, Debug)]
 pub struct Place {
     x: Vec<V3>,
@@ -110,24 +103,16 @@ pub struct Place {
     steps: u32,
 }
 
-/// Options of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Push {
-    /// True if contact is firm, as at the end.
     pub firm: bool,
-    /// Share of its weight that the cloth has.
     pub gravity: f64,
     /// Rest size: 0 as it was sewn, 1 the pattern's.
     pub share: f64,
-    /// Length by which the sides of open seams are drawn nearer, m.
     pub closer_m: f64,
 }
 
 impl<'a> Relaxation<'a> {
-    /// Starts from a sewn garment with some measurements under control.
-    ///
-    /// # Errors
-    /// [`SimError::Degenerate`].
     pub fn new(
         field: &'a DistanceField,
         garment: &Garment,
@@ -183,8 +168,7 @@ impl<'a> Relaxation<'a> {
         })
     }
 
-    /// Keeps cloth from going through other cloth from here on, except the two sides of seams that are still open.
-    #[must_use]
+    /// Keeps cloth from going through other cloth, except the two sides of open seams.
     pub fn kept_apart(mut self, garment: &Garment, sewn: &'a Sewn) -> Self {
         let layers = ClothContactParams::default();
         let areas = contact_areas(garment, &sewn.vertex_of, &self.areas, 2.0 * layers.thickness_m);
@@ -195,13 +179,11 @@ impl<'a> Relaxation<'a> {
     }
 
     /// Lets the body give way to all tight cloth, and not to rings alone.
-    #[must_use]
     pub fn giving_way(self) -> Self {
         Self { give: Some(Give::new(self.x.len())), ..self }
     }
 
-    /// Sets the height of the ankles, m: below them the body keeps its size.
-    #[must_use]
+    /// Lets the body keep its size below the ankles.
     pub fn over_feet(self, ankles_m: f64) -> Self {
         Self { feet_m: ankles_m, ..self }
     }
@@ -219,7 +201,7 @@ impl<'a> Relaxation<'a> {
         self.go_to(&goal);
     }
 
-    /// Moves the cloth to `x`, m, and out of the body; returns the rms movement of the vertices, m.
+    /// Moves the cloth to `x` and out of the body; returns the rms movement, m.
     pub fn put(&mut self, x: Vec<V3>) -> f64 {
         let from = std::mem::replace(&mut self.x, x);
         for (v, p) in self.x.iter_mut().enumerate() {
@@ -229,7 +211,6 @@ impl<'a> Relaxation<'a> {
         (from.iter().zip(&self.x).map(|(a, b)| (a - b).norm_squared()).sum::<f64>() / from.len() as f64).sqrt()
     }
 
-    /// Judges anew which rings are too small for a body: there the body counts as smaller.
     pub fn judge(&mut self, body: &Body, garment: &Garment, sewn: &Sewn) {
         let rings = rings(body, garment, sewn, &self.x);
         let is_hung = !underarms(garment).is_empty();
@@ -237,19 +218,16 @@ impl<'a> Relaxation<'a> {
         self.shrink();
     }
 
-    /// Distance and stretch with which rings fit.
     fn fit(&self) -> Fit {
         Fit { offset_m: self.params.offset_m, share: self.params.yield_stretch }
     }
 
-    /// Judges again which rings are still too small.
     pub fn judge_again(&mut self, body: &TriMesh) {
         self.insets.judge_again(body, &self.x, self.fit());
         self.give_way(true);
         self.shrink();
     }
 
-    /// Corrects the insets of the body.
     pub fn correct(&mut self) {
         self.insets.correct(&self.x, self.params.yield_stretch);
         self.give_way(false);
@@ -270,7 +248,6 @@ impl<'a> Relaxation<'a> {
         give.correct(&lying, self.params.yield_stretch);
     }
 
-    /// Applies the insets to the body.
     fn shrink(&mut self) {
         let own = self.give.as_ref().map_or_else(|| vec![0.0; self.x.len()], |give| give.now_m.clone());
         let mut insets = self.insets.of_vertices(own, &self.sides);
@@ -278,25 +255,21 @@ impl<'a> Relaxation<'a> {
         self.obstacle.shrink(insets);
     }
 
-    /// The present state.
-    #[must_use]
     pub fn place(&self) -> Place {
         Place { x: self.x.clone(), last: self.last.clone(), steps: self.steps }
     }
 
-    /// Returns to a state.
     pub fn go_back(&mut self, place: &Place) {
         self.x.clone_from(&place.x);
         self.last.clone_from(&place.last);
         self.steps = place.steps;
     }
 
-    /// Separates layers that intersect.
     pub fn part_layers(&mut self, rounds: u32) -> Parted {
         self.layers.part(&mut self.x, rounds)
     }
 
-    /// Takes one step; returns the rms movement of the vertices, m.
+    /// Returns the rms movement of the vertices, m.
     pub fn step(&mut self, push: Push) -> f64 {
         let ways_out = self.self_contact.as_mut().map_or_else(Vec::new, |contact| {
             contact.update(&self.x);
@@ -328,8 +301,7 @@ impl<'a> Relaxation<'a> {
         (self.last.iter().map(V3::norm_squared).sum::<f64>() / self.x.len() as f64).sqrt()
     }
 
-    /// Moves towards `goal` as far as the contact of the cloth with itself allows, in legs between which contacts are
-    /// sought.
+    /// Moves as far as the contact of the cloth with itself allows, in legs between which contacts are sought.
     fn go_to(&mut self, goal: &[V3]) {
         let Some(contact) = &mut self.self_contact else {
             self.x.copy_from_slice(goal);
@@ -373,17 +345,15 @@ geom::constants! {
     "hybrid.relax",
     /// Share of the vertices whose contact may change before the matrix is factorised again.
     const SAME_CONTACTS: f64 = 0.01;
-    /// Distance beyond the offset at which firm contact lets go of cloth, m.
+    /// Distance beyond the offset at which firm contact lets go.
     const LET_GO_M: f64 = 1e-3;
-    /// Least distance from the skin to which cloth that is large enough is lifted in the end, m.
+    /// Least distance from the skin to which cloth that is large enough is lifted in the end.
     const LEAST_CLEARANCE_M: f64 = 1e-3;
-    /// Depth up to which cloth is lifted out, m.
     const MOST_LIFT_M: f64 = 3e-3;
     /// Greatest number of legs of a step, after each of which contacts of the cloth with itself are sought.
     const MOST_LEGS: usize = 4;
 }
 
-/// Sides of all triangles, as sewn, with their lengths in the pattern, m.
 fn sides(garment: &Garment, sewn: &Sewn) -> Vec<([usize; 2], f64)> {
     let edges_of = |&[a, b, c]: &[usize; 3]| [[a, b], [b, c], [c, a]];
     let side =
@@ -391,7 +361,7 @@ fn sides(garment: &Garment, sewn: &Sewn) -> Vec<([usize; 2], f64)> {
     garment.triangles.iter().flat_map(edges_of).map(side).collect()
 }
 
-/// Positions lifted out of the body: pieces are laid on the control mesh, which lies partly inside the fine one.
+/// Pieces are laid on the control mesh, which lies partly inside the fine one.
 fn lifted(obstacle: &mut Obstacle, x: &[V3]) -> Vec<V3> {
     let mut lift = |(v, p): (usize, &V3)| {
         let (depth, out) = obstacle.contact(v, p);
@@ -400,13 +370,12 @@ fn lifted(obstacle: &mut Obstacle, x: &[V3]) -> Vec<V3> {
     x.iter().enumerate().map(&mut lift).collect()
 }
 
-/// True for vertices that contact acts on: those near the body or beyond a wall.
 fn touching(obstacle: &mut Obstacle, walls: &Walls, offset_m: f64, x: &[V3]) -> Vec<bool> {
     let mut touches = |(v, p): (usize, &V3)| obstacle.contact(v, p).0 > 0.0 || walls.back(v, p, offset_m).is_some();
     x.iter().enumerate().map(&mut touches).collect()
 }
 
-/// Weights of the vertices' targets: those of contact for vertices in contact, lower ones for the others.
+/// Weights of contact for vertices in contact, lower ones for the others.
 fn soft_weights(params: &RelaxParams, areas: &[f64], touching: &[bool]) -> Vec<f64> {
     touching.iter().zip(areas).map(|(touches, a)| a * if *touches { params.contact } else { params.hold }).collect()
 }

@@ -8,29 +8,25 @@ use pattern::Garment;
 
 geom::constants! {
     "hybrid.silhouette",
-    /// Rounds of the reconstruction in a step.
     const ROUNDS: u32 = 10;
 }
 
-/// A sewn garment that grows to its pattern's size from its free edges inwards.
+/// Sewn garment that grows to its pattern's size from its free edges inwards.
 pub struct Silhouette {
     pyramids: Pyramids,
     loops: Vec<Loop>,
 }
 
-/// A free edge: hem, neck, sleeve opening.
+/// Free edge: hem, neck, sleeve opening.
 struct Loop {
-    /// Sewn vertices in order.
     vertices: Vec<usize>,
-    /// Length in the pattern, m.
+    /// Length in the pattern.
     length_m: f64,
-    /// Edges from its vertices into the cloth, with their lengths in the pattern, m.
+    /// Edges into the cloth, with their lengths in the pattern, m.
     inwards: Vec<([usize; 2], f64)>,
 }
 
 impl Silhouette {
-    /// Prepares a sewn garment.
-    #[must_use]
     pub fn new(garment: &Garment, sewn: &Sewn) -> Self {
         let rest: Vec<[V2; 3]> = garment.triangles.iter().map(|t| t.map(|v| garment.rest[v])).collect();
         let sides = || {
@@ -58,9 +54,7 @@ impl Silhouette {
         }
     }
 
-    /// One step from `x` (m), in which edges and lengths change by `share` of their difference from those of the
-    /// pattern.
-    #[must_use]
+    /// Edges and lengths change by `share` of their difference from those of the pattern.
     pub fn step(&self, x: &[V3], share: f64) -> Vec<V3> {
         let mut now = x.to_vec();
         for edge in &self.loops {

@@ -7,7 +7,7 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Conj, MatMut, Par, Side};
 
-/// A Cholesky factor `L L^T` of a symmetric positive definite matrix, on one thread.
+/// Cholesky factor `L L^T`, on one thread.
 pub struct Factor {
     /// Lower triangle; the first entry of each column is on the diagonal.
     matrix: SparseColMat<usize, f64>,
@@ -17,9 +17,8 @@ pub struct Factor {
 }
 
 impl Factor {
-    /// Factorises the `n` x `n` matrix whose lower triangle is the sum of `entries` (row, column, value); entries of
-    /// the upper triangle are ignored. `None` when the matrix is not positive definite.
-    #[must_use]
+    /// Factorises the `n` x `n` matrix whose lower triangle is the sum of `entries` (row, column, value). `None` when
+    /// it is not positive definite.
     pub fn new(n: usize, entries: &[(usize, usize, f64)]) -> Option<Self> {
         let lower = entries.iter().filter(|(i, j, _)| i >= j);
         let triplets: Vec<_> = lower.map(|&(row, col, val)| Triplet { row, col, val }).collect();
@@ -32,9 +31,8 @@ impl Factor {
         Some(Self { matrix, symbolic, values, scratch })
     }
 
-    /// Adds to the diagonal and factorises again, which is quicker than anew: the order of elimination stays.
-    ///
-    /// Changes nothing when the matrix would not be positive definite any more, and returns `false`.
+    /// Adds to the diagonal and factorises again in the same order of elimination. Changes nothing when the matrix
+    /// would not be positive definite any more, and returns `false`.
     pub fn add_to_diagonal(&mut self, added: &[f64]) -> bool {
         let starts: Vec<usize> = self.matrix.symbolic().col_ptr()[..added.len()].to_vec();
         let mut matrix = self.matrix.clone();

@@ -40,7 +40,7 @@ fn dressed(body: &Body, garment: &Garment, params: &Params) -> Phases {
         .expect("it can be dressed")
 }
 
-/// L3D over L2D of every measurement.
+/// L3D over L2D.
 fn chis(garment: &Garment, x: &[V3]) -> Vec<f64> {
     garment.measurements.iter().map(|m| m.length_m(&garment.rest, x) / m.l2d_m).collect()
 }
@@ -101,7 +101,7 @@ fn pieces_of_one_face_lie_as_one_in_one_patch() {
     }
 }
 
-/// A garment whose front is cut in two where its triangles change from one half to the other, and sewn together again.
+/// Cuts the front in two where its triangles change from one half to the other, and sews it together again.
 fn parted(whole: &Garment) -> Garment {
     let mut cut = Garment { pieces: vec![], rest: vec![], triangles: vec![], measurements: vec![], ..whole.clone() };
     // New vertices of each old one: two where it is cut.
@@ -187,7 +187,7 @@ fn trousers_and_a_dress_are_mapped() {
     assert_eq!(mapping::map(&SLIM, &garment(Model::Dress, 0, 0.03)).expect("a dress").flips, 0);
 }
 
-/// Two garments worn together as one; measured nowhere.
+/// Two garments worn together; measured nowhere.
 fn with(mut one: Garment, other: &Garment) -> Garment {
     let (first, before) = (one.rest.len(), one.triangles.len());
     one.rest.extend(&other.rest);
@@ -213,8 +213,7 @@ fn a_top_and_trousers_are_a_suit_but_a_skirt_over_trousers_is_not() {
     assert!(error.contains("cannot place role Skirt") && error.contains("over legs"), "{error}");
 }
 
-/// A jumpsuit, a dress whose bodice is wider than its skirt's front, and a shirt whose sleeve seams lie before its
-/// sides.
+/// Jumpsuit, dress whose bodice is wider than its skirt's front, and shirt whose sleeve seams lie before its sides.
 #[test]
 fn sides_need_not_meet() {
     for name in ["js_mean_all", "dress_pencil", "shirt_mean"] {
@@ -247,7 +246,6 @@ fn what_cannot_be_mapped_is_named_with_its_reason() {
     assert!(error.contains("cannot place role Other"), "{error}");
 }
 
-/// Pseudo-random numbers below `below`.
 fn picks(count: usize, below: usize, seed: u64) -> Vec<usize> {
     noise(count, seed).into_iter().map(|r| (((r + 1.0) / 2.0) * below as f64) as usize % below).collect()
 }

@@ -4,8 +4,7 @@ use super::features::face;
 use pattern::garment::SeamMesh;
 use pattern::{Garment, PieceMesh, Role};
 
-/// Fronts and backs of a top with their underarm points: the upper ends of the side seams. Empty where one of them has
-/// no side.
+/// Fronts and backs of a top with the upper ends of the side seams. Empty where one of them has no side.
 pub fn underarms(garment: &Garment) -> Vec<(&PieceMesh, usize)> {
     let is_top = |p: &&PieceMesh| matches!(p.role, Role::Front | Role::Back | Role::BodiceFront | Role::BodiceBack);
     let tops: Vec<&PieceMesh> = garment.pieces.iter().filter(is_top).collect();

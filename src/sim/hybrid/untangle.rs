@@ -6,23 +6,20 @@ use geom::V3;
 
 geom::constants! {
     "hybrid.untangle",
-    /// Greatest number of rounds.
     const ROUNDS: usize = 120;
-    /// Number of rounds after which one of Laplacian smoothing follows: a kernel may be empty.
+    /// Rounds after which one of Laplacian smoothing follows: a kernel may be empty.
     const SMOOTH_EVERY: usize = 4;
-    /// Greatest number of corrections of a vertex in a round.
     const CORRECTIONS: usize = 20;
     /// Height of a triangle over its base from which on it counts as not flipped.
     const LEAST_HEIGHT: f64 = 0.1;
-    /// Displacement of a vertex over its violation of a constraint: a little over 1, so that rounding leaves no
-    /// violation.
+    /// Displacement over the violation of a constraint: a little over 1, so that rounding leaves no violation.
     const OVER: f64 = 1.01;
 }
 
 /// Turns flipped triangles of a sheet back; returns how many are left.
 ///
-/// `outwards` are normals of the surface on which the vertices `x` (m) lie. Both harmonic maps are bijective, but only
-/// the vertices of a piece are mapped. So a triangle may turn over where the surface bends, or where the corner of an
+/// `outwards` are normals of the surface on which the vertices lie. Both harmonic maps are bijective, but only the
+/// vertices of a piece are mapped. So a triangle may turn over where the surface bends, or where the corner of an
 /// outline is wider on the body than in the pattern. Vertices are relaxed towards the half-planes of their kernel
 /// [Motzkin & Schoenberg 1954]. Those of a seam move as one, so that no seam opens.
 pub fn untangle(triangles: &[[usize; 3]], outwards: &[V3], x: &mut [V3]) -> usize {
@@ -48,7 +45,6 @@ pub fn untangle(triangles: &[[usize; 3]], outwards: &[V3], x: &mut [V3]) -> usiz
 
 /// Half-plane beyond the far side of a triangle, in which its vertex must lie.
 struct Side {
-    /// A point of the side, m.
     point: V3,
     /// Unit vector into the triangle.
     inwards: V3,
@@ -56,11 +52,9 @@ struct Side {
     least: f64,
 }
 
-/// The mesh with the normals of its surface.
 struct Sheet<'a> {
     triangles: &'a [[usize; 3]],
     outwards: &'a [V3],
-    /// Triangles of each vertex.
     around: Vec<Vec<usize>>,
 }
 
@@ -82,7 +76,7 @@ impl Sheet<'_> {
         self.neighbours(v).map(|w| x[w]).sum::<V3>() / count
     }
 
-    /// A place near a vertex in the kernel of its triangles, from which it sees the far side of each.
+    /// Place near a vertex from which it sees the far side of each of its triangles.
     fn in_kernel(&self, v: usize, x: &[V3]) -> V3 {
         let out = self.outwards[v].try_normalize(0.0).unwrap_or_else(V3::z);
         let sides: Vec<Side> = self.around[v]

@@ -11,34 +11,30 @@ geom::constants! {
     "hybrid.sewn",
     /// Share of the way to the middle of its neighbours by which a vertex moves each time [T 5.3.3].
     const SMOOTHING: f64 = 0.1;
-    /// Number of smoothing steps [T 5.3.3].
+    /// Smoothing steps [T 5.3.3].
     const TIMES: u32 = 100;
 }
 
-/// A garment as one mesh, the vertices of each seam pair welded.
+/// Garment as one mesh, the vertices of each seam pair welded.
 #[derive(Clone, Debug)]
 pub struct Sewn {
-    /// Sewn vertex of each garment vertex.
     pub vertex_of: Vec<usize>,
-    /// Triangles over sewn vertices, in the garment's order.
+    /// In the garment's order.
     pub triangles: Vec<[usize; 3]>,
-    /// Position of each sewn vertex, m.
     pub x: Vec<V3>,
     /// Free edges as closed lines of sewn vertices, counter-clockwise about the cloth: hem, neck, sleeve openings.
     pub loops: Vec<Vec<usize>>,
 }
 
 impl Sewn {
-    /// Merges the vertices of every seam pair, at their mean place, and smooths the free edges.
-    #[must_use]
+    /// Merges seam pairs at their mean place, and smooths the free edges.
     pub fn new(garment: &Garment, positions: &[V3]) -> Self {
         let mut sewn = Self::at(garment, positions);
         sewn.smooth(TIMES);
         sewn
     }
 
-    /// The same without smoothing.
-    #[must_use]
+    /// Merges without smoothing.
     pub fn at(garment: &Garment, positions: &[V3]) -> Self {
         let vertex_of = sewing::welded(garment);
         let triangles: Vec<[usize; 3]> = garment.triangles.iter().map(|t| t.map(|v| vertex_of[v])).collect();
@@ -46,20 +42,17 @@ impl Sewn {
         Self { x: sewing::merged(&vertex_of, positions), vertex_of, triangles, loops }
     }
 
-    /// The pieces before they are sewn, no vertex welded.
-    #[must_use]
+    /// Welds no vertex.
     pub fn pieces(garment: &Garment, positions: &[V3]) -> Self {
         let (vertex_of, triangles) = (sewing::unsewn(garment), garment.triangles.clone());
         Self { vertex_of, triangles, x: positions.to_vec(), loops: Vec::new() }
     }
 
-    /// Positions of the garment's vertices from those of the sewn ones.
-    #[must_use]
     pub fn unsewn(&self, x: &[V3]) -> Vec<V3> {
         self.vertex_of.iter().map(|&v| x[v]).collect()
     }
 
-    /// Smooths the free edges (5.3) by a number of steps of explicit Laplacian smoothing.
+    /// Smooths the free edges (5.3) by explicit Laplacian smoothing.
     pub fn smooth(&mut self, times: u32) {
         for ring in &self.loops {
             let n = ring.len();
@@ -74,7 +67,7 @@ impl Sewn {
     }
 }
 
-/// Closed lines of the edges that only one triangle has; lines that meet in a vertex are left out.
+/// Closed lines; those that meet in a vertex are left out.
 fn free_edges(triangles: &[[usize; 3]]) -> Vec<Vec<usize>> {
     let mut directed: BTreeMap<[usize; 2], ()> = BTreeMap::new();
     for t in triangles {

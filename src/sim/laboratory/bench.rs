@@ -10,56 +10,44 @@ use crate::{Fabric, SimError};
 
 geom::constants! {
     "laboratory.bench",
-    /// Number of rings of the mesh of a specimen in Cusick's test.
     const RINGS: usize = 24;
 }
 
-/// Lays a sheet of a fabric on a slope, with a friction coefficient and an angle in rad.
+/// Takes a friction coefficient and an angle in rad.
 type Laying = fn(&Fabric, f64, f64) -> Result<Laid, SimError>;
 
-/// An experiment with a known answer.
+/// Experiment with a known answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Experiment {
-    /// A strip that hangs and stretches under its own weight.
+    /// Hangs and stretches under its own weight.
     Strip,
-    /// A strip clamped horizontally at one end, which bends under its own weight.
+    /// Strip clamped horizontally at one end, which bends under its own weight.
     Cantilever,
-    /// A strip clamped on its edge, which buckles laterally under its own weight.
+    /// Strip clamped on its edge, which buckles laterally under its own weight.
     Buckling,
-    /// A sheet bent to a cylinder or a cone.
+    /// Sheet bent to a cylinder or a cone.
     Bending,
-    /// A sheet on an incline.
     Incline,
-    /// A tube stretched over a cylinder.
     Tube,
-    /// Cusick's drape test.
     Drape,
 }
 
-/// Result of an experiment beside the known value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
-    /// Experiment of the result.
     pub experiment: Experiment,
-    /// Specimen and load, in words.
     pub case: String,
     /// Compared quantity, with its unit.
     pub quantity: &'static str,
-    /// Known value.
     pub known: f64,
-    /// Value that the solver finds.
     pub found: f64,
-    /// Source of the known value.
     pub source: String,
 }
 
 impl Experiment {
-    /// All experiments, in the order in which they are listed.
     pub const ALL: [Self; 7] =
         [Self::Strip, Self::Cantilever, Self::Buckling, Self::Bending, Self::Incline, Self::Tube, Self::Drape];
 
     /// Name in the command line.
-    #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Strip => "strip",
@@ -72,8 +60,6 @@ impl Experiment {
         }
     }
 
-    /// Description in a line.
-    #[must_use]
     pub fn about(self) -> &'static str {
         match self {
             Self::Strip => "a strip of each fabric hangs by its own weight",
@@ -86,10 +72,6 @@ impl Experiment {
         }
     }
 
-    /// Runs the experiment.
-    ///
-    /// # Errors
-    /// When a mesh is degenerate.
     pub fn run(self) -> Result<Vec<Finding>, SimError> {
         match self {
             Self::Strip => strips(),
@@ -102,16 +84,14 @@ impl Experiment {
         }
     }
 
-    /// A result of this experiment.
     fn finding(self, case: String, quantity: &'static str, [known, found]: [f64; 2], source: &str) -> Finding {
         Finding { experiment: self, case, quantity, known, found, source: source.to_owned() }
     }
 }
 
 impl Finding {
-    /// Error of the found value, with its unit: percentage points for the drape coefficient, degrees for the incline,
-    /// else percent of the known value.
-    #[must_use]
+    /// Error with its unit: percentage points for the drape coefficient, degrees for the incline, else percent of the
+    /// known value.
     pub fn error(&self) -> (f64, &'static str) {
         match self.experiment {
             Experiment::Drape => (self.found - self.known, "points"),
@@ -198,13 +178,10 @@ fn tubes() -> Result<Vec<Finding>, SimError> {
     Ok(findings)
 }
 
-/// A fabric of which drape, weight and bending were measured.
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Measured {
-    /// Name in the table of results.
     name: String,
-    /// Name in the library.
     fabric: String,
     drape_pct: f64,
     source: String,
@@ -218,15 +195,14 @@ fn published() -> Vec<Measured> {
     toml::from_str::<Published>(include_str!("published.toml")).expect("the published numbers are valid").drape
 }
 
-/// Measured drape coefficient of a fabric of the library, percent.
-#[must_use]
+/// Percent.
 pub fn measured_drape(name: &str) -> Option<f64> {
     published().into_iter().find(|row| row.fabric == name).map(|row| row.drape_pct)
 }
 
 impl Measured {
-    /// The fabric. Properties that were not measured on this cloth are those of a light cotton, since freely hanging
-    /// cloth is hardly stretched.
+    /// Properties that were not measured on this cloth are those of a light cotton, since freely hanging cloth is
+    /// hardly stretched.
     fn fabric(&self) -> Option<Fabric> {
         let by_name = |name: &str| known().iter().find(|known| known.fabric.name == name);
         let (cloth, cotton) = (by_name(&self.fabric)?, by_name("cotton_shirting_light")?);

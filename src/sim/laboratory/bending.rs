@@ -10,10 +10,9 @@ use crate::{Fabric, SimError};
 use geom::units::GRAVITY;
 use geom::{V2, V3};
 
-/// Mesh of a specimen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mesh {
-    /// Squares, cut along either diagonal alternately.
+    /// Cut along either diagonal alternately.
     Squares,
     /// Equilateral triangles, six around each inner vertex.
     Hexagons,
@@ -22,7 +21,7 @@ pub enum Mesh {
 }
 
 impl Mesh {
-    /// Strip of a length in `rows` rows, four columns wide. One more row lies beyond `v = 0`, in the clamp.
+    /// Four columns wide. One more row lies beyond `v = 0`, in the clamp.
     fn strip(self, rows: usize, length: f64) -> Flat {
         let row = length / rows as f64;
         let edge = row / 0.75_f64.sqrt();
@@ -45,9 +44,6 @@ impl Mesh {
 ///
 /// The last row of hinges in the clamp stands for half a row on either side. So the clamp is taken to lie half a row
 /// inside.
-///
-/// # Errors
-/// When the mesh is degenerate.
 pub fn cantilever(mesh: Mesh, rows: usize, gammas: &[f64]) -> Result<Vec<(f64, f64)>, SimError> {
     let (density, length) = (0.15, 0.2);
     let row = length / rows as f64;
@@ -77,7 +73,6 @@ pub fn cantilever(mesh: Mesh, rows: usize, gammas: &[f64]) -> Result<Vec<(f64, f
 
 /// Drop over reach of the elastica, `theta'' = -gamma (1 - s) cos theta`, `theta(0) = 0`, `theta'(1) = 0`, by Newton's
 /// method on central differences.
-#[must_use]
 pub fn elastica(gamma: f64) -> f64 {
     let n = 4000;
     let h = 1.0 / f64::from(n as u32);
@@ -107,7 +102,7 @@ pub fn elastica(gamma: f64) -> f64 {
     sum(f64::sin) / sum(f64::cos)
 }
 
-/// Solves a tridiagonal system in place, and returns the greatest entry of the solution.
+/// Solves in place, and returns the greatest entry of the solution.
 fn tridiagonal(lower: &[f64], diagonal: &mut [f64], upper: &[f64], right: &mut [f64]) -> f64 {
     let n = right.len();
     for i in 1..n {
@@ -127,11 +122,6 @@ fn tridiagonal(lower: &[f64], diagonal: &mut [f64], upper: &[f64], right: &mut [
 ///
 /// The buckled strip is twisted, so this tests the torsional stiffness of the plate. Beam theory gives `12.854 sqrt(2 /
 /// (1 + nu))` for a strip much longer than wide: 18.18 for a plate with Poisson ratio 0.
-///
-/// # Errors
-/// When the mesh is degenerate.
-///
-/// Never: the bending stiffness of a sheet held along an edge is positive definite.
 pub fn lateral_buckling(columns: usize) -> Result<f64, SimError> {
     let (density, length) = (0.15, 0.2);
     let weight = density * GRAVITY;
@@ -174,15 +164,13 @@ pub fn lateral_buckling(columns: usize) -> Result<f64, SimError> {
 /// The half angle of the cone is 20 degrees, and its radius is that in the middle of the sheet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bent {
-    /// A cylinder of this radius, in edges.
     Cylinder(f64),
-    /// A cone with this radius of curvature in the middle of the sheet, in edges.
     Cone(f64),
 }
 
 impl Bent {
-    /// Image of a point of the sheet under an isometric map, and the radius of curvature there, both in edges. The
-    /// point is given from the middle of the sheet in edges, along the generators first.
+    /// Image of a point under an isometric map, and the radius of curvature there, both in edges. The point is given
+    /// from the middle of the sheet in edges, along the generators first.
     fn place(self, [along, across]: [f64; 2]) -> (V3, f64) {
         match self {
             Self::Cylinder(radius) => {
@@ -208,13 +196,9 @@ impl std::fmt::Display for Bent {
     }
 }
 
-/// Elastic energy of a sheet of irregular triangles of 15 mm that is bent to a surface, over that of a plate.
-///
-/// The ends of the sheet are held. `turned_rad` is the angle between the direction of bending and the weft. The
-/// membrane is that of a light cotton, and the bending is isotropic.
-///
-/// # Errors
-/// When the mesh is degenerate.
+/// Elastic energy of a bent sheet of irregular triangles of 15 mm, over that of a plate. The ends of the sheet are
+/// held. `turned_rad` is the angle between the direction of bending and the weft. The membrane is that of a light
+/// cotton, and the bending is isotropic.
 pub fn bent(about: Bent, turned_rad: f64) -> Result<f64, SimError> {
     let (edge, rigidity) = (0.015, 6e-6);
     let cotton = Fabric {

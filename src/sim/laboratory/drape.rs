@@ -10,29 +10,21 @@ use geom::{DistanceField, V2, V3};
 
 geom::constants! {
     "laboratory.drape",
-    /// Radius of the specimen, m.
     const SPECIMEN_M: f64 = 0.15;
-    /// Radius of the disc that carries it, m.
     const DISC_M: f64 = 0.09;
 }
 
-/// Result of a drape test.
 pub struct Draped {
-    /// Drape coefficient: share of the overhanging ring that the shadow of the specimen covers, 0 to 1.
+    /// Share of the overhanging ring that the shadow of the specimen covers, 0 to 1.
     pub coefficient: f64,
-    /// Number of folds, counted as upward crossings of the mean height along the rim.
+    /// Folds, counted as upward crossings of the mean height along the rim.
     pub nodes: usize,
-    /// Final residual.
     pub residual: f64,
-    /// Positions of the rim, in order, m.
+    /// In order.
     pub rim: Vec<V3>,
 }
 
-/// Drapes a specimen of a fabric, meshed in `rings` rings. It is slack at first, as garments are. `number` selects the
-/// noise from which it starts.
-///
-/// # Errors
-/// When the mesh is degenerate.
+/// The specimen is slack at first, as garments are. `number` selects the noise from which it starts.
 pub fn cusick(fabric: &Fabric, rings: usize, number: u64) -> Result<Draped, SimError> {
     let seed = 17 + 100 * number;
     let (flat, carried_m) = carried(rings);
@@ -63,9 +55,8 @@ pub fn cusick(fabric: &Fabric, rings: usize, number: u64) -> Result<Draped, SimE
     })
 }
 
-/// Mesh of a specimen in `rings` rings, and the radius of the part that the disc holds, m.
-///
-/// The last row of hinges in the held part stands for half a row on either side, so it lies half a row beyond the disc.
+/// Mesh of a specimen, and the radius of the part that the disc holds, m. The last row of hinges in the held part
+/// stands for half a row on either side, so it lies half a row beyond the disc.
 fn carried(rings: usize) -> (Flat, f64) {
     let share = DISC_M / SPECIMEN_M;
     let held = (share * rings as f64 + 0.5).round();
@@ -80,22 +71,14 @@ fn carried(rings: usize) -> (Flat, f64) {
     ((rest, triangles), carried_m)
 }
 
-/// A sheet at rest over a sphere.
 pub struct OverSphere {
-    /// Final residual.
     pub residual: f64,
-    /// Number of steps of the solver.
     pub steps: usize,
-    /// Positions of its vertices, m.
     pub positions: Vec<V3>,
 }
 
 /// Lays a square metre of a fabric, 71 x 71 vertices, flat on a sphere of radius 0.3 m and brings it to rest, with
-/// friction on the sphere and contact with itself. It ends when the residual is 1 % or 600 steps are done. It is a
-/// scene on which other simulators are timed. `sphere` is the distance field of the sphere.
-///
-/// # Errors
-/// When the mesh is degenerate.
+/// friction and self-contact: to a residual of 1 % or for 600 steps. A scene on which other simulators are timed.
 pub fn over_sphere(fabric: &Fabric, sphere: &DistanceField) -> Result<OverSphere, SimError> {
     let (cells, radius) = (70, 0.3);
     let params = ContactParams::default();

@@ -21,23 +21,17 @@ use pattern::{Garment, PieceMesh, Role};
 
 use sheets::Flat;
 
-/// A flat piece of cloth, its grain along v, of which some vertices are held.
+/// Flat piece of cloth, its grain along v, of which some vertices are held.
 pub struct Specimen {
-    /// The piece as a garment without seams.
+    /// Without seams.
     pub garment: Garment,
-    /// Mechanical model of the piece.
     pub cloth: Cloth,
-    /// Positions of its vertices, m.
     pub positions: Vec<V3>,
-    /// Vertices that do not move.
     pub held: Vec<usize>,
 }
 
 impl Specimen {
-    /// Makes a specimen of a fabric, deformed by the map `place` from its plane to space.
-    ///
-    /// # Errors
-    /// When a triangle has no area.
+    /// Deforms a flat piece by the map `place` from its plane to space.
     pub fn new(flat: Flat, fabric: &Fabric, place: impl Fn(&V2) -> V3) -> Result<Self, SimError> {
         let garment = garment(flat);
         let cloth = Cloth::new(&garment, fabric, unsewn(&garment))?;
@@ -45,15 +39,12 @@ impl Specimen {
         Ok(Self { garment, cloth, positions, held: Vec::new() })
     }
 
-    /// Holds the vertices whose place in the plane satisfies a condition.
-    #[must_use]
     pub fn hold(mut self, is_held: impl Fn(&V2) -> bool) -> Self {
         self.held = (0..self.garment.rest.len()).filter(|&v| is_held(&self.garment.rest[v])).collect();
         self
     }
 
-    /// Brings the specimen to rest under `gravity` times its weight, until the residual or the number of steps is
-    /// reached. Returns the residual.
+    /// Brings the specimen to rest under `gravity` times its weight. Returns the residual.
     pub fn rest(&mut self, gravity: f64, tolerance: f64, steps: usize) -> f64 {
         let field = nowhere();
         let contact = BodyContact::new(&field, ContactParams::default(), &self.cloth.areas);
@@ -65,7 +56,7 @@ impl Specimen {
     }
 }
 
-/// Steps with accurate linear solves until the residual or the number of steps is reached. Returns the residual.
+/// Takes steps with accurate linear solves. Returns the residual.
 pub fn settle(system: &mut System, x: &mut Vec<V3>, tolerance: f64, steps: usize) -> f64 {
     let exact = StepParams { linear_tolerance: 1e-4, h_max_s: 20.0, clamp_m: 0.05, ..StepParams::default() };
     let mut stepper = Stepper::new(exact);
@@ -79,8 +70,7 @@ pub fn settle(system: &mut System, x: &mut Vec<V3>, tolerance: f64, steps: usize
     residual
 }
 
-/// Makes a garment of one piece of a flat mesh, its grain along v.
-#[must_use]
+/// Garment of one piece, its grain along v.
 pub fn garment((rest, triangles): Flat) -> Garment {
     let edge_length_m = triangles.first().map_or(0.0, |t| (rest[t[1]] - rest[t[0]]).norm());
     let piece = PieceMesh {
@@ -109,7 +99,6 @@ pub fn garment((rest, triangles): Flat) -> Garment {
 ///
 /// # Panics
 /// Never: a sphere is closed.
-#[must_use]
 pub fn nowhere() -> DistanceField {
     let mut mesh = shapes::sphere(0.05, 8);
     for p in &mut mesh.positions {
@@ -118,9 +107,7 @@ pub fn nowhere() -> DistanceField {
     DistanceField::build(&mesh, 0.02).expect("a closed sphere")
 }
 
-/// Makes a fabric with equal properties along warp and weft: membrane modulus `stiffness_n_m` without coupling, shear
-/// modulus half of it, bending rigidity `rigidity_nm`.
-#[must_use]
+/// Membrane modulus `stiffness_n_m` without coupling, shear modulus half of it.
 pub fn isotropic(density_kg_m2: f64, stiffness_n_m: f64, rigidity_nm: f64) -> Fabric {
     Fabric {
         name: "specimen".into(),
@@ -139,7 +126,6 @@ pub fn isotropic(density_kg_m2: f64, stiffness_n_m: f64, rigidity_nm: f64) -> Fa
     }
 }
 
-/// Collects the constants of the laboratory that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
     [bench::CONSTANTS, drape::CONSTANTS].concat()
 }

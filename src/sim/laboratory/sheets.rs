@@ -2,11 +2,10 @@
 
 use geom::{V2, V3};
 
-/// Vertices in a plane, m, and counter-clockwise triangles.
+/// Vertices, and counter-clockwise triangles.
 pub type Flat = (Vec<V2>, Vec<[usize; 3]>);
 
-/// Flat sheet of `columns` x `rows` squares of side `step`, cut along either diagonal alternately.
-#[must_use]
+/// Squares of side `step`, cut along either diagonal alternately.
 pub fn sheet(columns: usize, rows: usize, step: f64) -> Flat {
     let vertex = |i: usize, j: usize| j * (columns + 1) + i;
     let rest = (0..=rows).flat_map(|j| (0..=columns).map(move |i| V2::new(i as f64 * step, j as f64 * step))).collect();
@@ -24,9 +23,8 @@ pub fn sheet(columns: usize, rows: usize, step: f64) -> Flat {
     (rest, triangles)
 }
 
-/// Flat sheet of nearly equilateral triangles, as from a mesher: `rows` strips of height `step sqrt(3)/2`, with every
-/// other row of vertices shifted by half a step, and both sides straight.
-#[must_use]
+/// Nearly equilateral triangles, as from a mesher: `rows` strips of height `step sqrt(3)/2`, with every other row of
+/// vertices shifted by half a step, and both sides straight.
 pub fn hexagonal_sheet(columns: usize, rows: usize, step: f64) -> Flat {
     let width = columns as f64 * step;
     let mut rest = Vec::new();
@@ -61,8 +59,7 @@ pub fn hexagonal_sheet(columns: usize, rows: usize, step: f64) -> Flat {
     (rest, triangles)
 }
 
-/// Disc of `rings` rings, `radius / rings` wide each, with `6 k` vertices on ring `k`.
-#[must_use]
+/// Rings `radius / rings` wide each, with `6 k` vertices on ring `k`.
 pub fn disc(rings: usize, radius: f64) -> Flat {
     let on_ring = |k: usize| 6 * k.max(1);
     let first = |k: usize| if k == 0 { 0 } else { 1 + 3 * k * (k - 1) };
@@ -92,9 +89,8 @@ pub fn disc(rings: usize, radius: f64) -> Flat {
     (rest, triangles)
 }
 
-/// Displaces the vertices at random in the plane, so that triangles become irregular. Inner vertices move by up to
-/// `size` along each axis, those on a side only along it, and those that `is_fixed` selects not at all.
-#[must_use]
+/// Displaces vertices at random in the plane. Inner ones move by up to `size` along each axis, those on a side only
+/// along it, and those that `is_fixed` selects not at all.
 pub fn jittered((mut rest, triangles): Flat, size: f64, is_fixed: impl Fn(&V2) -> bool) -> Flat {
     let (low, high) = rest.iter().fold((rest[0], rest[0]), |(low, high), p| (low.inf(p), high.sup(p)));
     let shift = noise(2 * rest.len(), 11);
@@ -110,8 +106,7 @@ pub fn jittered((mut rest, triangles): Flat, size: f64, is_fixed: impl Fn(&V2) -
     (rest, triangles)
 }
 
-/// Reproducible sequence of numbers in -1..1 (a linear congruential generator).
-#[must_use]
+/// Reproducible numbers in -1..1 (a linear congruential generator).
 pub fn noise(count: usize, seed: u64) -> Vec<f64> {
     let mut state = seed;
     (0..count)
@@ -122,8 +117,6 @@ pub fn noise(count: usize, seed: u64) -> Vec<f64> {
         .collect()
 }
 
-/// Positions with added noise of amplitude `size`.
-#[must_use]
 pub fn shaken(positions: &[V3], size: f64, seed: u64) -> Vec<V3> {
     let noise = noise(3 * positions.len(), seed);
     positions.iter().enumerate().map(|(i, p)| p + V3::from_row_slice(&noise[3 * i..3 * i + 3]) * size).collect()

@@ -6,12 +6,9 @@ use crate::{Fabric, SimError};
 use geom::units::GRAVITY;
 use geom::{V2, V3};
 
-/// Brings a sheet to rest whose sides are held at the places of a homogeneous deformation `gradient` (columns: images
-/// of weft and warp). Returns the greatest distance of an inner vertex from that deformation, and the tension across a
-/// line normal to the weft and to the warp (N/m of rest width).
-///
-/// # Errors
-/// When the mesh is degenerate.
+/// Sides are held at the places of a homogeneous deformation `gradient` (columns: images of weft and warp). Returns the
+/// greatest distance of an inner vertex from that deformation, and the tension across a line normal to the weft and to
+/// the warp (N/m of rest width).
 pub fn held_sheet(fabric: &Fabric, gradient: [V3; 2]) -> Result<(f64, [f64; 2]), SimError> {
     let edge = 0.02;
     let (columns, rows) = (6, 6);
@@ -39,10 +36,7 @@ pub fn held_sheet(fabric: &Fabric, gradient: [V3; 2]) -> Result<(f64, [f64; 2]),
     Ok((off, [tension(0), tension(1)]))
 }
 
-/// Elongation of a strip of rest length `length` that hangs by its own weight, m, its warp vertical, in `rows` rows.
-///
-/// # Errors
-/// When the mesh is degenerate.
+/// Elongation of a strip that hangs by its own weight, m, its warp vertical.
 pub fn hanging_strip(fabric: &Fabric, length: f64, rows: usize) -> Result<f64, SimError> {
     let edge = length / rows as f64 / 0.75_f64.sqrt();
     let strip = Specimen::new(hexagonal_sheet(4, rows, edge), fabric, |p| V3::new(p.x, 0.0, p.y))?;
@@ -53,9 +47,8 @@ pub fn hanging_strip(fabric: &Fabric, length: f64, rows: usize) -> Result<f64, S
     Ok(lowest.iter().sum::<f64>() / lowest.len() as f64)
 }
 
-/// Elongation of a hanging thread, m: the tension is `w g s` at the height `s`, and the stretch follows from `T = S(E)
-/// lambda`, integrated over the length.
-#[must_use]
+/// Elongation, m: the tension is `w g s` at the height `s`, and the stretch follows from `T = S(E) lambda`, integrated
+/// over the length.
 pub fn hanging_thread(fabric: &Fabric, length: f64) -> f64 {
     let steps = 2000;
     let piece = length / f64::from(steps);

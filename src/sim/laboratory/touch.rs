@@ -13,19 +13,12 @@ use crate::{Fabric, SimError};
 use geom::{DistanceField, TriMesh, V2, V3, shapes};
 use pattern::SeamMesh;
 
-/// A sheet laid on an incline, after a number of steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Laid {
-    /// Final residual.
     pub residual: f64,
-    /// Greatest displacement of a vertex, m.
     pub moved_m: f64,
 }
 
-/// Lays a sheet on an incline.
-///
-/// # Errors
-/// When the mesh is degenerate.
 pub fn on_incline(fabric: &Fabric, friction: f64, angle_rad: f64) -> Result<Laid, SimError> {
     let (edge, columns) = (0.02, 4);
     let sheet = garment(hexagonal_sheet(columns, columns, edge));
@@ -43,10 +36,7 @@ pub fn on_incline(fabric: &Fabric, friction: f64, angle_rad: f64) -> Result<Laid
     Ok(Laid { residual, moved_m })
 }
 
-/// Lays a sheet on another, larger one, which is held fast on an incline. The displacement is that of the upper sheet.
-///
-/// # Errors
-/// When the mesh is degenerate.
+/// Lays a sheet on a larger one, which is held fast on an incline. The displacement is that of the upper sheet.
 pub fn layer_on_incline(fabric: &Fabric, friction: f64, angle_rad: f64) -> Result<Laid, SimError> {
     let (edge, contact, between) = (0.02, ContactParams::default(), ClothContactParams::default());
     let ((mut rest, mut triangles), (upper, others)) = (hexagonal_sheet(8, 8, edge), hexagonal_sheet(4, 4, edge));
@@ -77,7 +67,7 @@ pub fn layer_on_incline(fabric: &Fabric, friction: f64, angle_rad: f64) -> Resul
     Ok(Laid { residual, moved_m })
 }
 
-/// Distance field of a slab whose upper face is inclined about the x axis.
+/// Slab whose upper face is inclined about the x axis.
 fn incline(angle_rad: f64) -> DistanceField {
     let (half, depth) = (0.15, 0.1);
     let turn = Rotation3::from_axis_angle(&V3::x_axis(), angle_rad);
@@ -91,21 +81,16 @@ fn incline(angle_rad: f64) -> DistanceField {
     DistanceField::build(&mesh, 0.01).expect("a closed slab")
 }
 
-/// A tube stretched over a cylinder.
 pub struct Pressed {
-    /// Mean pressure away from its ends, Pa.
+    /// Mean pressure away from the ends.
     pub pressure_pa: f64,
-    /// Hoop tension at its girth there over its radius, Pa: the pressure by Laplace's law.
+    /// Hoop tension over the radius of its girth: the pressure by Laplace's law.
     pub tension_over_radius_pa: f64,
-    /// Radius there, m.
     pub radius_m: f64,
 }
 
-/// Stretches a tube over a cylinder of 20 cm in height. Its mesh has the edge length `edge_m`, its warp is along the
-/// axis, and its rest girth is a share of the girth of the cylinder.
-///
-/// # Errors
-/// When the mesh is degenerate.
+/// Stretches a tube over a cylinder 20 cm high. Its warp is along the axis, and its rest girth is a share of that of
+/// the cylinder.
 pub fn pressed_tube(fabric: &Fabric, radius_m: f64, share: f64, edge_m: f64) -> Result<Pressed, SimError> {
     let girth_m = share * std::f64::consts::TAU * radius_m;
     let columns = (girth_m / edge_m).round() as usize;

@@ -20,20 +20,12 @@ use geom::V3;
 use geom::constants::Constant;
 use pattern::Garment;
 
-/// Layers as one garment.
 pub struct Joined<'a> {
-    /// Finest mesh of each layer.
     pub garments: Vec<&'a Garment>,
-    /// All of them beside each other.
     pub all: Garment,
-    /// The same, sewn.
     pub cloth: Cloth,
 }
 
-/// Joins layers to one garment and one cloth.
-///
-/// # Errors
-/// When a layer has no mesh, or a triangle no area.
 pub fn joined<'a>(layers: &[Layer<'a>]) -> Result<Joined<'a>, SimError> {
     let garments = layers.iter().map(Layer::finest).collect::<Result<Vec<_>, _>>()?;
     let all = Garment::beside(&garments);
@@ -42,18 +34,12 @@ pub fn joined<'a>(layers: &[Layer<'a>]) -> Result<Joined<'a>, SimError> {
     Ok(Joined { garments, all, cloth })
 }
 
-/// A simulator that can dress a body in layers.
+/// Simulator that can dress a body in layers.
 pub trait Wear {
-    /// Drapes a garment alone, with `room_m` more room to the body, m.
-    ///
-    /// # Errors
-    /// Those of the simulator.
+    /// Drapes a garment with `room_m` more room to the body.
     fn alone(&self, wearer: Wearer, layer: Layer, room_m: f64, monitor: &mut dyn Monitor) -> Result<Drape, SimError>;
 
     /// Lets layers that lie over each other at `drapes` come to rest together.
-    ///
-    /// # Errors
-    /// Those of the simulator.
     fn together(
         &self,
         wearer: Wearer,
@@ -65,14 +51,11 @@ pub trait Wear {
 
 geom::constants! {
     "outfit",
-    /// Room for a layer between the body and the next layer, m: two thicknesses of contact.
+    /// Room for a layer between the body and the next layer: two thicknesses of contact.
     const ROOM_M: f64 = 4e-3;
 }
 
-/// Dresses a body in layers, the inmost first; returns a drape of each.
-///
-/// # Errors
-/// Those of the simulator, or when the layers bound no solid.
+/// Inmost layer first; returns a drape of each.
 pub fn dress(
     wearer: Wearer,
     layers: &[Layer],
@@ -101,7 +84,6 @@ pub fn dress(
     Ok(drapes)
 }
 
-/// Constants of outfits that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
     [CONSTANTS, solid::CONSTANTS, tuck::CONSTANTS].concat()
 }

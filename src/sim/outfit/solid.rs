@@ -11,7 +11,7 @@ use pattern::Role;
 
 geom::constants! {
     "outfit.solid",
-    /// Distance beyond which only the side matters, m.
+    /// Distance beyond which only the side matters.
     const NEAR_M: f64 = 0.02;
     /// Cells along the edge of a block whose side one winding number may decide.
     const BLOCK: usize = 4;
@@ -21,12 +21,9 @@ geom::constants! {
     const TO_CORNER: f64 = 0.9;
 }
 
-/// A body with layers on it, their vertices at `positions`, as a body of its own with its distance field. The field has
-/// the nodes of the body's own and more. All space between cloth and skin is solid, and so are `beyond_m` outside the
-/// cloth, m. A single layer of cloth is resolved where that is no less than the field's spacing.
-///
-/// # Errors
-/// When the layers have no triangle, or the solid cannot be built.
+/// Body with layers on it as a body of its own. The field has the nodes of the body's own and more. All space between
+/// cloth and skin is solid, and so are `beyond_m` outside the cloth. A single layer of cloth is resolved where that is
+/// no less than the field's spacing.
 pub fn dressed(
     Wearer { body, field }: Wearer,
     layers: &[Layer],
@@ -51,7 +48,6 @@ pub fn dressed(
     Ok((body.enclosed(mesh, &on_trunk), field))
 }
 
-/// Signed distance from the cloth.
 struct About {
     surface: Surface,
     winding: Winding,
@@ -66,12 +62,12 @@ impl About {
         Ok(Self { surface, winding: Winding::new(cloth), block_m: spacing_m * BLOCK as f64, blocks: BTreeMap::new() })
     }
 
-    /// Side of a point by its winding number: 1 before the cloth, -1 behind it, in between near an opening.
+    /// Side by the winding number: 1 before the cloth, -1 behind it, in between near an opening.
     fn side(&self, p: V3) -> f64 {
         (SHARPNESS * (0.5 - self.winding.number(p))).clamp(-1.0, 1.0)
     }
 
-    /// Distance from the cloth, m, negative behind it; up to [`NEAR_M`].
+    /// Negative behind the cloth; up to [`NEAR_M`].
     fn signed_m(&mut self, p: V3) -> f64 {
         let block = [0, 1, 2].map(|k| (p[k] / self.block_m).floor() as i64);
         let side_of_block = match self.blocks.get(&block) {
@@ -91,7 +87,6 @@ impl About {
     }
 }
 
-/// All pieces of the layers with a wanted role, sewn, as one mesh.
 fn cloth(layers: &[Layer], positions: &[Vec<V3>], is_wanted: impl Fn(Role) -> bool) -> Result<TriMesh, SimError> {
     let mut all = TriMesh::default();
     for (layer, positions) in layers.iter().zip(positions) {

@@ -10,7 +10,7 @@ use geom::DistanceField;
 use pattern::draft::Model;
 use pattern::{SeamMesh, Style};
 
-/// A tube about the z axis, 0.3 m long, and its vertices.
+/// About the z axis, 0.3 m long.
 fn tube(radius_m: f64) -> (Garment, Vec<V3>) {
     let girth_m = std::f64::consts::TAU * radius_m;
     let (columns, edge_m) = (24, girth_m / 24.0);

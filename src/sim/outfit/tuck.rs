@@ -10,17 +10,12 @@ use pattern::Garment;
 
 geom::constants! {
     "outfit.tuck",
-    /// Greatest number of steps in which layers are drawn in.
     const STEPS: u32 = 120;
-    /// Residual at which they count as within.
+    /// Residual at which layers count as within the cover.
     const LIES: f64 = 1.0;
 }
 
-/// Draws layers from `positions`, m, within a cover; returns the positions of each layer. Layers of which nothing lies
-/// beyond the cover stay as they are.
-///
-/// # Errors
-/// When a mesh is degenerate, or the monitor cancels.
+/// Draws layers within a cover. Layers of which nothing lies beyond it stay as they are.
 pub fn tucked(
     field: &DistanceField,
     layers: &[Layer],
@@ -50,7 +45,7 @@ pub fn tucked(
     Ok(parted(&garments, &cloth.unweld(&x)))
 }
 
-/// Splits values at the vertices of several garments beside each other into those of each.
+/// Splits values at the vertices of several garments beside each other.
 pub fn parted<T: Copy>(garments: &[&Garment], all: &[T]) -> Vec<Vec<T>> {
     let mut rest = all;
     let own = |garment: &&Garment| {

@@ -12,27 +12,24 @@ use pattern::Role;
 
 geom::constants! {
     "placement.arm",
-    /// Least distance of a sleeve from the arm before sewing, m.
     const SLEEVE_CLEARANCE_M: f64 = 0.012;
-    /// Share of a full turn over which a sleeve is bent at most: its underarm seam starts open.
+    /// Greatest share of a full turn: the underarm seam starts open.
     const SLEEVE_TURN: f64 = 0.95;
     /// Share of its cap on one side of the trunk below which a sleeve piece belongs to the other side.
     const HALF_SLEEVE: f64 = 0.2;
-    /// Number of a sleeve's vertices for each one that counts as its far end.
+    /// Vertices of a sleeve for each one that counts as its far end.
     const FAR_SHARE: usize = 10;
-    /// Greatest distance of an arm's skin from its axis, m: skin farther away is the trunk's.
+    /// Greatest distance of an arm's skin from its axis: skin farther away is the trunk's.
     const ARM_RADIUS_M: f64 = 0.1;
-    /// Least descent from one joint to the next along the axis for the sleeve to follow it, m.
+    /// Least descent from one joint to the next along the axis for the sleeve to follow it.
     const BENT_BACK_M: f64 = 0.05;
-    /// Stretch of the arm in which its girth is measured, from the shoulder joint, m: well below the armpit.
+    /// Part of the arm in which its girth is measured, from the shoulder joint: well below the armpit.
     const UPPER_ARM_M: std::ops::Range<f64> = 0.15..0.25;
-    /// Half length of the wrist in which its girth is measured, m.
+    /// Half length of the wrist in which its girth is measured.
     const WRIST_M: f64 = 0.02;
 }
 
-/// Sleeve pieces of one arm, placed.
 pub struct Sleeve {
-    /// The arm that it goes round.
     pub limb: Limb,
     /// Pieces with the angles of their middles, rad.
     pub parts: Vec<(Sheet, f64)>,
@@ -41,7 +38,7 @@ pub struct Sleeve {
 }
 
 impl Sleeve {
-    /// The pieces of one arm that are sewn to the trunk: a whole sleeve, or its front and back half. Other sleeve
+    /// Takes the pieces of one arm that are sewn to the trunk: a whole sleeve, or its front and back half. Other sleeve
     /// pieces are placed later by the pieces that they are sewn to.
     pub fn new(form: &Form, joins: &Joins, hand: Hand) -> Self {
         let role = if hand > 0.0 { Role::SleeveRight } else { Role::SleeveLeft };
@@ -86,7 +83,6 @@ impl Sleeve {
         Self { limb, parts, top }
     }
 
-    /// Place of a point of a part's sheet, whose middle lies at an angle.
     pub fn at(&self, p: V2, middle: f64) -> V3 {
         let height = self.top + p.y;
         let radius = self.limb.station(height).radius;
@@ -94,8 +90,8 @@ impl Sleeve {
     }
 }
 
-/// An arm from the elbow over the wrist to the tip of the hand, continued straight where it is bent back. Its stations
-/// have the initial radii of a sleeve that is `width` wide at a height and has the radius `radius` at the elbow.
+/// Arm from the elbow over the wrist to the tip of the hand, continued straight where it is bent back. Its stations
+/// have the initial radii of a sleeve that is `width` wide at a height and has `radius` at the elbow.
 fn arm(form: &Form, axis: Axis, hand: Hand, width: impl Fn(f64) -> f64, radius: f64) -> Limb {
     let [_, elbow, wrist] = arm_bones(form.body, hand);
     let elbow = Station { height: axis.coordinates(&elbow).height, beside: V3::zeros(), radius };
@@ -113,7 +109,6 @@ fn arm(form: &Form, axis: Axis, hand: Hand, width: impl Fn(f64) -> f64, radius: 
     Limb::bent(axis, elbow, below)
 }
 
-/// Mean of the vertices that lie farthest from the cap of a sleeve.
 fn far_end(joins: &Joins, piece: usize, cap: V2) -> V2 {
     let mut vertices: Vec<usize> = joins.garment.pieces[piece].vertices.clone().collect();
     vertices.sort_by(|&a, &b| {

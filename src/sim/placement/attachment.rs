@@ -13,7 +13,7 @@ use geom::{V2, V3};
 
 geom::constants! {
     "placement.follow",
-    /// Least distance from the skin, m.
+    /// Least distance from the skin.
     const CLEARANCE_M: f64 = 0.012;
     /// Share of the room round a limb that a piece may take.
     const ROUND: f64 = 0.97;
@@ -32,24 +32,22 @@ geom::constants! {
     const SCALE: [f64; 2] = [0.3, 4.0];
 }
 
-/// A piece that is to be placed by others.
 pub struct Follower {
     pub piece: usize,
-    /// Pairs of its vertices with the vertices of placed pieces that they are sewn to.
+    /// Its vertices with those of placed pieces that they are sewn to.
     pub pairs: Vec<[usize; 2]>,
-    /// Limb that it goes about.
     pub limb: Limb,
 }
 
 impl Follower {
-    /// Circular mean of the angles of its partners, which are at `placed`, rad.
+    /// Circular mean of the angles of the partners, which are at `placed`, rad.
     fn angle(&self, placed: &[V3]) -> f64 {
         let angles = self.pairs.iter().map(|pair| self.limb.coordinates(&placed[pair[1]]).angle);
         let (sin, cos) = angles.fold((0.0, 0.0), |(sin, cos), angle: f64| (sin + angle.sin(), cos + angle.cos()));
         sin.atan2(cos)
     }
 
-    /// Angle that it may take to either side, rad: half a turn, or half the angle to the nearest of the pieces beside
+    /// Angle that the piece may take to either side: half a turn, or half the angle to the nearest of the pieces beside
     /// it.
     pub fn room_rad(&self, beside: &[Self], placed: &[V3]) -> f64 {
         let others = beside.iter().filter(|other| other.piece != self.piece && other.limb == self.limb);
@@ -112,13 +110,11 @@ fn is_other_half(own: &[V2], goal: &[V2]) -> bool {
     error(&mirrored) < OTHER_HALF * error(own)
 }
 
-/// The points at which a piece is sewn, in its own plane.
 struct Sides {
     /// Place sideways and up from the middle, and the partner's distance from the axis, m.
     points: Vec<(V2, f64)>,
     /// Sideways scale from the points to their partners.
     squeezed: f64,
-    /// True if both sides are sewn into one slit.
     are_a_slit: bool,
 }
 
@@ -137,7 +133,7 @@ impl Sides {
         Self { points: own.into_iter().zip(from_axis).collect(), squeezed: scale.x, are_a_slit }
     }
 
-    /// Place of a point of a piece that is folded outwards from the slit at `middle`, like a tent.
+    /// Folds a piece outwards from the slit at `middle`, like a tent.
     fn fold(&self, p: &V2, middle: &V2, radius: f64, limb: &Limb) -> V3 {
         let [half_width, from_axis] = self.beside(p).unwrap_or([p.x.abs(), radius]);
         let open = self.squeezed.max(OPEN);
@@ -158,7 +154,7 @@ impl Sides {
     }
 }
 
-/// Angles unwrapped along the principal axis of the piece: neighbours differ by at most half a turn.
+/// Unwraps angles along the principal axis of the piece: neighbours differ by at most half a turn.
 fn unwrapped(own: &[V2], angles: &[f64]) -> Vec<f64> {
     let mean = own.iter().sum::<V2>() / own.len() as f64;
     let spread = own.iter().map(|p| (p - mean) * (p - mean).transpose()).sum::<nalgebra::Matrix2<f64>>();
@@ -174,7 +170,7 @@ fn unwrapped(own: &[V2], angles: &[f64]) -> Vec<f64> {
     result
 }
 
-/// A rotation about a centre, and the scale that goes with it.
+/// Rotation about a centre, and the scale that goes with it.
 pub struct Similarity {
     from: V2,
     to: V2,
@@ -183,7 +179,7 @@ pub struct Similarity {
 }
 
 impl Similarity {
-    /// The least-squares similarity that takes `own` to `goal`, without mirroring.
+    /// Least-squares similarity that takes `own` to `goal`, without mirroring.
     pub fn of(own: &[V2], goal: &[V2]) -> Self {
         let mean = |points: &[V2]| points.iter().sum::<V2>() / points.len() as f64;
         let (from, to) = (mean(own), mean(goal));
@@ -198,18 +194,17 @@ impl Similarity {
         Self { from, to, rotation: nalgebra::Rotation2::new(perp.atan2(dot)), scale: scale.clamp(SCALE[0], SCALE[1]) }
     }
 
-    /// The same without the scale.
+    /// Leaves out the scale.
     pub fn motion(&self) -> nalgebra::Isometry2<f64> {
         nalgebra::Isometry2::new(self.to - self.rotation * self.from, self.rotation.angle())
     }
 
-    /// A point turned about the centre, not scaled, relative to it.
+    /// Turns a point about the centre, without scale, and returns it relative to the centre.
     fn turned(&self, p: V2) -> V2 {
         self.rotation * (p - self.from)
     }
 }
 
-/// Greatest distance of the limb's skin from its middle between two heights.
 pub fn body_radius(form: &Form, limb: &Limb, low: f64, high: f64) -> f64 {
     // Only an arm's axis slopes.
     let skin = if limb.axis.up == V3::z() { &form.trunk } else { &form.arms };

@@ -6,22 +6,21 @@ use geom::{V2, V3};
 
 geom::constants! {
     "placement.form",
-    /// Half height of the band of the body in which its depth is measured, m.
+    /// Half height of the band in which the body's depth is measured.
     const LEVEL_BAND_M: f64 = 0.02;
-    /// Greatest distance of an arm's skin from its bone, m.
     const ARM_REACH_M: f64 = 0.1;
-    /// Distance from the shoulder joint along the bone beyond which skin near it is the arm's, not the shoulder's, m.
+    /// Distance from the shoulder joint along the bone beyond which skin near it is the arm's, not the shoulder's.
     const SHOULDER_M: f64 = 0.1;
-    /// Length of a hand beyond the wrist, m.
+    /// Length of a hand beyond the wrist.
     const HAND_M: f64 = 0.25;
-    /// Distance towards the median plane from the start of the arm's bone at which its skin begins, m.
+    /// Distance towards the median plane from the start of the arm's bone at which its skin begins.
     const WITHIN_JOINT_M: f64 = 0.03;
 }
 
-/// Side of the body: `1.0` right, `-1.0` left.
+/// `1.0` right, `-1.0` left.
 pub type Hand = f64;
 
-/// Axis of a limb: a cylindrical coordinate system about it.
+/// Cylindrical coordinate system about a limb.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axis {
     pub origin: V3,
@@ -30,7 +29,6 @@ pub struct Axis {
     pub outward: V3,
 }
 
-/// Cylindrical coordinates about a limb.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cylindrical {
     /// Within half a turn, rad.
@@ -42,18 +40,17 @@ pub struct Cylindrical {
 }
 
 impl Axis {
-    /// Direction to the right of `outward` seen from outside, in which the angle grows.
+    /// To the right of `outward` seen from outside, in which the angle grows.
     fn rightward(&self) -> V3 {
         self.up.cross(&self.outward)
     }
 
-    /// The point at an angle (rad), a distance from the axis and a height.
+    /// Angle in rad.
     pub fn point(&self, angle: f64, radius: f64, height: f64) -> V3 {
         let (sin, cos) = angle.sin_cos();
         self.origin + self.up * height + (self.outward * cos + self.rightward() * sin) * radius
     }
 
-    /// Coordinates of a point.
     pub fn coordinates(&self, p: &V3) -> Cylindrical {
         let d = p - self.origin;
         let (a, b) = (d.dot(&self.outward), d.dot(&self.rightward()));
@@ -61,19 +58,16 @@ impl Axis {
     }
 }
 
-/// The body as placement sees it.
 pub struct Form<'a> {
     pub body: &'a Body,
-    /// Points of the skin of trunk and legs.
+    /// Skin of trunk and legs.
     pub trunk: Vec<V3>,
-    /// Points of the skin of the arms.
     pub arms: Vec<V3>,
-    /// Tips of the right and the left hand, m; `None` where a hand cannot be told from the rest.
+    /// Right and left hand; `None` where one cannot be told from the rest.
     tips: [Option<V3>; 2],
 }
 
 impl<'a> Form<'a> {
-    /// Separates the skin of the arms from the rest.
     pub fn of(body: &'a Body) -> Self {
         let hands = [1.0, -1.0].map(|side| hands::Hand::of(body, side));
         let is_hand = |v: &usize| hands.iter().flatten().any(|hand| hand.skin.binary_search(v).is_ok());
@@ -84,7 +78,7 @@ impl<'a> Form<'a> {
         Self { body, trunk: places(trunk), arms: places(arms), tips }
     }
 
-    /// Tip of a hand, m; `None` where no skin is a hand's.
+    /// `None` where no skin is a hand's.
     pub fn tip(&self, hand: Hand) -> Option<V3> {
         self.tips[usize::from(hand < 0.0)]
     }
@@ -96,29 +90,27 @@ impl<'a> Form<'a> {
         if back <= front { V2::new(back, front) } else { V2::zeros() }
     }
 
-    /// Greatest distance of the trunk's skin from the median plane between two heights.
     pub fn half_width(&self, low: f64, high: f64) -> f64 {
         self.between(low, high).map(|p| p.x.abs()).fold(0.0, f64::max)
     }
 
-    /// Skin of trunk and legs between two heights.
     pub fn between(&self, low: f64, high: f64) -> impl Iterator<Item = &V3> {
         self.trunk.iter().filter(move |p| (low..=high).contains(&p.z))
     }
 
-    /// Axis of the trunk: vertical, half way between chest and back; angle 0 in front.
+    /// Vertical, half way between chest and back; angle 0 in front.
     pub fn trunk_axis(&self) -> Axis {
         let depth = self.depth(self.body.levels.waist_m);
         Axis { origin: V3::new(0.0, 0.5 * (depth.x + depth.y), 0.0), up: V3::z(), outward: V3::y() }
     }
 
-    /// Axis of a leg: vertical through the knee; angle 0 in front.
+    /// Vertical through the knee; angle 0 in front.
     pub fn leg_axis(&self, hand: Hand) -> Axis {
         let knee = self.body.skeleton.at(if hand > 0.0 { Joint::KneeRight } else { Joint::KneeLeft });
         Axis { origin: V3::new(knee.x, knee.y, 0.0), up: V3::z(), outward: V3::y() }
     }
 
-    /// Axis of an arm: along the upper arm's bone, height 0 at the shoulder joint; angle 0 away from the trunk.
+    /// Along the upper arm's bone, height 0 at the shoulder joint; angle 0 away from the trunk.
     pub fn arm_axis(&self, hand: Hand) -> Axis {
         let [shoulder, elbow, _] = arm_bones(self.body, hand);
         let up = (shoulder - elbow).normalize();
@@ -126,14 +118,12 @@ impl<'a> Form<'a> {
         Axis { origin: shoulder, up, outward: (sideways - up * sideways.dot(&up)).normalize() }
     }
 
-    /// Height along the arm's axis of the shoulder point.
     pub fn shoulder_height(&self, hand: Hand) -> f64 {
         let tip = self.body.landmarks.shoulder[usize::from(hand < 0.0)];
         self.arm_axis(hand).coordinates(&tip).height
     }
 }
 
-/// Shoulder, elbow and wrist of an arm.
 pub fn arm_bones(body: &Body, hand: Hand) -> [V3; 3] {
     let joints = if hand > 0.0 {
         [Joint::ShoulderRight, Joint::ElbowRight, Joint::WristRight]
@@ -143,7 +133,6 @@ pub fn arm_bones(body: &Body, hand: Hand) -> [V3; 3] {
     joints.map(|joint| body.skeleton.at(joint))
 }
 
-/// True if a point of the skin belongs to an arm.
 fn is_arm(body: &Body, p: &V3) -> bool {
     [1.0, -1.0].into_iter().any(|hand| {
         let [shoulder, elbow, wrist] = arm_bones(body, hand);
@@ -154,7 +143,6 @@ fn is_arm(body: &Body, p: &V3) -> bool {
     })
 }
 
-/// Distance of a point from a line segment, m.
 fn distance(p: &V3, a: V3, b: V3) -> f64 {
     let along = b - a;
     let share = ((p - a).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);

@@ -6,15 +6,12 @@ use geom::V2;
 
 geom::constants! {
     "placement.ellipse",
-    /// Number of chords by which half the ellipse is measured.
     const STEPS: usize = 128;
-    /// Greatest depth of an ellipse, m.
     const DEEPEST_M: f64 = 3.0;
-    /// Tolerance of the bisection for the depth, m.
     const FOUND_M: f64 = 1e-4;
 }
 
-/// An ellipse with half axes across and ahead, parametrised by the signed arc length from its apex ahead.
+/// Ellipse with half axes across and ahead, parametrised by the signed arc length from its apex ahead.
 pub struct Ellipse {
     half: V2,
     /// Arc lengths from the apex at even angles from 0 to half a turn.
@@ -22,7 +19,7 @@ pub struct Ellipse {
 }
 
 impl Ellipse {
-    /// An ellipse with the half axes `across` and `ahead`, m.
+    /// Takes half axes.
     pub fn new(across: f64, ahead: f64) -> Self {
         let half = V2::new(across, ahead);
         let mut arcs = vec![0.0];
@@ -33,7 +30,7 @@ impl Ellipse {
         Self { half, arcs }
     }
 
-    /// The ellipse of half width `across` that is at least `least` deep and half of which is at least `length` long.
+    /// Ellipse of half width `across` that is at least `least` deep and half of which is at least `length` long.
     pub fn reaching(across: f64, least: f64, length: f64) -> Self {
         let (mut low, mut high) = (least, DEEPEST_M.max(least));
         if Self::new(across, low).half_length() >= length {
@@ -50,7 +47,7 @@ impl Ellipse {
         self.arcs[STEPS]
     }
 
-    /// The point at a signed arc length from the apex: across, ahead.
+    /// Across, ahead.
     pub fn at(&self, arc: f64) -> V2 {
         let length = arc.abs().min(self.half_length());
         let k = self.arcs.partition_point(|a| *a < length).clamp(1, STEPS);

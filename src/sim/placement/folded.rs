@@ -16,19 +16,14 @@ use pattern::{Garment, Role};
 
 geom::constants! {
     "placement.folded",
-    /// Distance at which a piece begins outside the cloth that it continues, m.
     const ABOVE_M: f64 = 0.01;
 }
 
-/// Pieces of a garment that are folded onto others.
 pub struct Folded {
-    /// Indices of those pieces in the garment.
     pub pieces: Vec<usize>,
 }
 
 impl Folded {
-    /// The folded pieces of a garment; `None` where there are none.
-    #[must_use]
     pub fn of(garment: &Garment) -> Option<Self> {
         let joins = Joins::of(garment);
         let is_loose = |piece: usize| garment.pieces[piece].role == Role::Other;
@@ -41,7 +36,6 @@ impl Folded {
         (!pieces.is_empty()).then_some(Self { pieces })
     }
 
-    /// Places the pieces, turned up, beside the others, which are at `x`.
     pub fn turn_up(&self, garment: &Garment, x: &mut [V3]) {
         let joins = Joins::of(garment);
         for &piece in &self.pieces {
@@ -62,13 +56,12 @@ impl Folded {
     }
 }
 
-/// A point of a piece that is seen from its other side, so that its seam runs against that which it is sewn to.
+/// Point of a piece that is seen from its other side, so that its seam runs against that which it is sewn to.
 fn over(p: V2) -> V2 {
     V2::new(-p.x, p.y)
 }
 
-/// Above a point of a piece in its plane, where its triangles are at `x`; beyond its edge as the nearest of them goes
-/// on.
+/// Place above a point of a piece whose triangles are at `x`; beyond its edge as the nearest of them goes on.
 fn above(rest: &[V2], triangles: &[[usize; 3]], p: V2, x: &[V3]) -> Option<V3> {
     let flat = |p: V2| V3::new(p.x, p.y, 0.0);
     let distance = |corners: &[usize; 3]| {
@@ -85,7 +78,7 @@ fn above(rest: &[V2], triangles: &[[usize; 3]], p: V2, x: &[V3]) -> Option<V3> {
     Some(a + (b - a) * second + (c - a) * third + outwards * ABOVE_M)
 }
 
-/// Sides of triangles, each as it runs round its triangle counter-clockwise.
+/// Sides of triangles, as they run counter-clockwise.
 struct Turned(BTreeSet<[usize; 2]>);
 
 impl Turned {
@@ -93,7 +86,6 @@ impl Turned {
         Self(garment.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect())
     }
 
-    /// True if both sides of the seams between two pieces run the same way round.
     fn is_folded(&self, pairs: &[[usize; 2]]) -> bool {
         let side = |ends: &[[usize; 2]], k: usize| {
             let [from, to] = [ends[0][k], ends[1][k]];

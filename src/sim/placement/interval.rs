@@ -11,7 +11,6 @@ pub fn middle(values: impl Iterator<Item = f64>) -> f64 {
     0.5 * (low + high)
 }
 
-/// The least and the greatest.
 pub fn bounds(values: impl Iterator<Item = f64>) -> [f64; 2] {
     values.fold([f64::MAX, f64::MIN], |[low, high], value| [low.min(value), high.max(value)])
 }

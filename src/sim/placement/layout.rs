@@ -7,16 +7,14 @@ use pattern::{Garment, Role};
 
 geom::constants! {
     "placement.layout",
-    /// Space between parts of a sheet that no seam joins, m.
+    /// Space between parts of a sheet that no seam joins.
     const BESIDE_M: f64 = 0.01;
     /// Cosine of the angle, 30 degrees, up to which a direction of the grain counts as up.
     const NEAR_COSINE: f64 = 0.866;
 }
 
-/// A garment with its seams sorted by the pieces they join.
 pub struct Joins<'a> {
     pub garment: &'a Garment,
-    /// Piece of each vertex.
     pub piece_of: Vec<usize>,
     /// Vertex pairs by (lesser, greater) piece, the lesser piece's vertex first.
     pairs: BTreeMap<[usize; 2], Vec<[usize; 2]>>,
@@ -25,7 +23,6 @@ pub struct Joins<'a> {
 }
 
 impl<'a> Joins<'a> {
-    /// Sorts the seams.
     pub fn of(garment: &'a Garment) -> Self {
         let mut piece_of = vec![0; garment.rest.len()];
         for (index, piece) in garment.pieces.iter().enumerate() {
@@ -54,30 +51,27 @@ impl<'a> Joins<'a> {
         pairs.map_or_else(Vec::new, |pairs| pairs.iter().map(turned).collect())
     }
 
-    /// Length along which a piece is sewn to any of some others, m.
     pub fn length_to_any(&self, piece: usize, others: &[usize]) -> f64 {
         let length = |&other: &usize| self.lengths.get(&[piece.min(other), piece.max(other)]);
         others.iter().filter_map(length).sum()
     }
 
-    /// Vertex pairs that join a piece to any of some others, its own vertex first.
+    /// Vertex pairs that join a piece to any of `others`, its own vertex first.
     pub fn to_any(&self, piece: usize, others: &[usize]) -> Vec<[usize; 2]> {
         others.iter().filter(|&&other| other != piece).flat_map(|&other| self.between(piece, other)).collect()
     }
 
-    /// Pieces worn as any of some roles.
     pub fn worn_as(&self, roles: &[Role]) -> Vec<usize> {
         (0..self.garment.pieces.len()).filter(|&p| roles.contains(&self.garment.pieces[p].role)).collect()
     }
 
-    /// Mean of some vertices in their piece's plane.
+    /// Mean in the piece's plane.
     pub fn mean_rest(&self, vertices: impl Iterator<Item = usize>) -> Option<V2> {
         let (sum, n) = vertices.fold((V2::zeros(), 0.0), |(sum, n), v| (sum + self.garment.rest[v], n + 1.0));
         (n > 0.0).then(|| sum / n)
     }
 
-    /// Which of the grain's four directions is up on the piece, the nearest to `hint`; `hint` itself where the grain
-    /// lies aslant.
+    /// Nearest of the grain's four directions to `hint`; `hint` itself where the grain lies aslant.
     pub fn up(&self, piece: usize, hint: V2) -> V2 {
         let hint = hint.try_normalize(0.0).unwrap_or_else(V2::y);
         let grain = self.garment.pieces[piece].grain;
@@ -87,7 +81,7 @@ impl<'a> Joins<'a> {
     }
 }
 
-/// A piece turned upright and moved to its place in a sheet.
+/// Piece turned upright and moved to its place in a sheet.
 #[derive(Clone, Copy, Debug)]
 pub struct Part {
     pub piece: usize,
@@ -96,18 +90,16 @@ pub struct Part {
 }
 
 impl Part {
-    /// A piece with its `up` direction.
     pub fn new(piece: usize, up: V2) -> Self {
         Self { piece, up, shift: V2::zeros() }
     }
 
-    /// Place in the sheet of a point of the piece: `x` to the right seen from outside, `y` up.
+    /// Place in the sheet: `x` to the right seen from outside, `y` up.
     pub fn at(&self, p: V2) -> V2 {
         V2::new(p.x * self.up.y - p.y * self.up.x, p.dot(&self.up)) + self.shift
     }
 }
 
-/// Parts that lie in one plane.
 #[derive(Clone, Debug, Default)]
 pub struct Sheet {
     pub parts: Vec<Part>,
@@ -133,7 +125,6 @@ impl Sheet {
         sheets
     }
 
-    /// The loose part with the longest seam to a part of the sheet, and that part.
     fn longest_seam(&self, joins: &Joins, loose: &[Part]) -> Option<(usize, usize)> {
         // From behind, because of equals `max_by_key` takes the last.
         let candidates = (0..loose.len()).rev().flat_map(|i| (0..self.parts.len()).rev().map(move |k| (i, k)));
@@ -145,12 +136,10 @@ impl Sheet {
             .map(|(_, pair)| pair)
     }
 
-    /// Pieces of the sheet.
     pub fn pieces(&self) -> Vec<usize> {
         self.parts.iter().map(|part| part.piece).collect()
     }
 
-    /// Vertices of the sheet with their places in it.
     pub fn points<'s>(&'s self, garment: &'s Garment) -> impl Iterator<Item = (usize, V2)> + 's {
         let places_of = move |part: &'s Part| {
             garment.pieces[part.piece].vertices.clone().map(move |v| (v, part.at(garment.rest[v])))
@@ -158,7 +147,6 @@ impl Sheet {
         self.parts.iter().flat_map(places_of)
     }
 
-    /// Least and greatest coordinates.
     pub fn bounds(&self, garment: &Garment) -> (V2, V2) {
         let start = (V2::repeat(f64::MAX), V2::repeat(f64::MIN));
         self.points(garment).fold(start, |(low, high), (_, p)| (low.inf(&p), high.sup(&p)))
@@ -183,7 +171,6 @@ impl Sheet {
         })
     }
 
-    /// Moves the whole sheet.
     pub fn shift(&mut self, by: V2) {
         self.parts.iter_mut().for_each(|part| part.shift += by);
     }

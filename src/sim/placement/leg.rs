@@ -16,15 +16,13 @@ use pattern::{Garment, Role};
 
 geom::constants! {
     "placement.leg",
-    /// Distance of the garment's fork below the body's crotch before sewing, m.
     const BELOW_CROTCH_M: f64 = 0.02;
-    /// Least distance of the cloth from the median plane, m.
     const BESIDE_MEDIAN_M: f64 = 4e-3;
-    /// Height over which rows are blended from the leg to the body, m.
+    /// Height over which rows are blended from the leg to the body.
     const PASSAGE_M: f64 = 0.12;
-    /// Height of the ankles, m: cloth that hangs lower at the sides and behind is placed as if there were no foot.
+    /// Height of the ankles: cloth that hangs lower at the sides and behind is placed as if there were no foot.
     const ANKLE_M: f64 = 0.09;
-    /// Height of the instep, m: the foot would pierce the front of a leg that began lower.
+    /// Height of the instep: the foot would pierce the front of a leg that began lower.
     const INSTEP_M: f64 = 0.11;
     /// Sine of the angle from the side of a leg beyond which its front lies above the foot.
     const FRONT: f64 = 0.7;
@@ -33,11 +31,10 @@ geom::constants! {
     /// Share of the width of the row [`INNER_M`] further in from which on a row counts as full.
     const FULL: f64 = 0.9;
     const INNER_M: f64 = 0.04;
-    /// Spacing of the rows that are tried, m.
     const ROW_M: f64 = 5e-3;
 }
 
-/// Roles of one leg: front, back, and both in one piece.
+/// Front, back, and both in one piece.
 pub fn roles(hand: Hand) -> [Role; 3] {
     if hand > 0.0 {
         [Role::LegFrontRight, Role::LegBackRight, Role::LegRight]
@@ -46,10 +43,9 @@ pub fn roles(hand: Hand) -> [Role; 3] {
     }
 }
 
-/// Side of the sheets of a leg, in the order of [`roles`]: 1 in front, -1 behind, `None` for both in one piece.
+/// Sides in the order of [`roles`]: 1 in front, -1 behind, `None` for both in one piece.
 pub const FACES: [Option<f64>; 3] = [Some(1.0), Some(-1.0), None];
 
-/// Front and back of a leg.
 pub struct Leg<'a> {
     form: &'a Form<'a>,
     joins: &'a Joins<'a>,
@@ -57,14 +53,12 @@ pub struct Leg<'a> {
     faces: Vec<LegFace>,
 }
 
-/// One side of a leg.
 struct LegFace {
     sheet: Sheet,
     /// 1 in front, -1 behind; `None` for both in one piece, whose middle lies outside.
     side: Option<f64>,
-    /// Height in the sheet of the fork.
     fork: f64,
-    /// Height in the sheet of its lowest point.
+    /// Height of the lowest point in the sheet.
     hem: f64,
     /// Heights between which rows go from side to side; beyond them hem and waist edge slope.
     full: [f64; 2],
@@ -88,14 +82,14 @@ fn full_rows(sheet: &Sheet, garment: &Garment) -> [f64; 2] {
     [bottom.unwrap_or(low.y), top.unwrap_or(high.y)]
 }
 
-/// An ellipse about a part of the body at one height.
+/// Ellipse about a part of the body at one height.
 struct Ring {
     centre: V2,
     half: V2,
 }
 
 impl<'a> Leg<'a> {
-    /// A leg of sheets with their sides, as in [`FACES`]; `others` are the pieces of the other leg.
+    /// Takes sheets with their sides, as in [`FACES`]; `others` are the pieces of the other leg.
     pub fn new(
         form: &'a Form,
         joins: &'a Joins,
@@ -115,7 +109,6 @@ impl<'a> Leg<'a> {
         Self { form, joins, hand, faces: sheets.into_iter().map(face).collect() }
     }
 
-    /// All sheets, with the places of their vertices.
     pub fn places(&self) -> impl Iterator<Item = (&Sheet, Vec<(usize, V3)>)> {
         self.faces.iter().map(|face| {
             let placed = |(v, p): (usize, V2)| (v, self.at(face, p));
@@ -140,8 +133,7 @@ impl<'a> Leg<'a> {
         V3::new(self.hand * (self.hand * place.x).max(BESIDE_MEDIAN_M), place.y, height)
     }
 
-    /// Side of a point of a sheet, 1 in front or -1 behind, and its share of the way from the outside of the leg to its
-    /// inside.
+    /// Side of a point, 1 in front or -1 behind, and its share of the way from the outside of the leg to its inside.
     fn side_and_inwards(&self, face: &LegFace, p: V2) -> (f64, f64) {
         let (low, high) = face.row(self.joins.garment, p.y).unwrap_or((p.x, p.x));
         let share = |from: f64| if high > low { (from / (high - low)).clamp(0.0, 1.0) } else { 0.5 };
@@ -169,23 +161,21 @@ impl<'a> Leg<'a> {
         height + (drawn_up - height) * smooth_step(sin / FRONT)
     }
 
-    /// Height of the fork, m.
     fn crotch_m(&self) -> f64 {
         self.form.body.levels.crotch_m - BELOW_CROTCH_M
     }
 
-    /// Width of a face at a height above its fork.
     fn width(&self, face: &LegFace, above: f64) -> Option<f64> {
         face.row(self.joins.garment, face.fork + above).map(|(low, high)| high - low)
     }
 
-    /// The ring about the leg; above the crotch and below the ankle that of crotch and ankle.
+    /// Above the crotch and below the ankle the ring of crotch and ankle.
     fn leg_ring(&self, height: f64) -> Ring {
         let crotch = self.crotch_m();
         self.ring(height.clamp(ANKLE_M.min(crotch), crotch), |p| p.x * self.hand > 0.0)
     }
 
-    /// The ring about the body; below the crotch that of the crotch.
+    /// Below the crotch the ring of the crotch.
     fn body_ring(&self, height: f64) -> Ring {
         let ring = self.ring(height.max(self.form.body.levels.crotch_m + BELOW_CROTCH_M), |_| true);
         Ring { centre: V2::new(0.0, ring.centre.y), ..ring }

@@ -3,18 +3,18 @@
 use super::body_parts::{Axis, Cylindrical};
 use geom::V3;
 
-/// A cross section of an arm at or below the elbow, with the sleeve about it.
+/// Cross section of an arm at or below the elbow, with the sleeve about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Station {
     /// Along the axis of the upper arm, m.
     pub height: f64,
-    /// Offset of the arm's middle from that axis, m.
+    /// Offset of the arm's middle from that axis.
     pub beside: V3,
     /// Radius of the sleeve, m; 0 where there is none.
     pub radius: f64,
 }
 
-/// A limb, unrolled to (angle, height).
+/// Limb, unrolled to (angle, height).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limb {
     pub axis: Axis,
@@ -23,17 +23,16 @@ pub struct Limb {
 }
 
 impl Limb {
-    /// A limb along its axis.
     pub fn straight(axis: Axis) -> Self {
         Self::bent(axis, Station { height: 0.0, beside: V3::zeros(), radius: 0.0 }, Vec::new())
     }
 
-    /// An arm that continues from the elbow through some stations, downwards.
+    /// Arm that continues from the elbow through some stations, downwards.
     pub fn bent(axis: Axis, elbow: Station, below: Vec<Station>) -> Self {
         Self { axis, course: [vec![elbow], below].concat() }
     }
 
-    /// The cross section at a height, by linear interpolation; constant beyond the ends.
+    /// Linear interpolation; constant beyond the ends.
     pub fn station(&self, height: f64) -> Station {
         let within = self.course.windows(2).find(|ends| height > ends[1].height);
         let last = self.course[self.course.len() - 1];
@@ -43,12 +42,12 @@ impl Limb {
         Station { height, beside: from.beside.lerp(&to.beside, share), radius }
     }
 
-    /// The point at an angle (rad), a distance from the limb's middle and a height.
+    /// Takes an angle (rad), a distance from the limb's middle and a height.
     pub fn point(&self, angle: f64, radius: f64, height: f64) -> V3 {
         self.axis.point(angle, radius, height) + self.station(height).beside
     }
 
-    /// Coordinates of a point about the limb's middle.
+    /// About the limb's middle.
     pub fn coordinates(&self, p: &V3) -> Cylindrical {
         let Cylindrical { height, .. } = self.axis.coordinates(p);
         self.axis.coordinates(&(p - self.station(height).beside))

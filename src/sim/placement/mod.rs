@@ -19,7 +19,6 @@ mod rows;
 mod tiers;
 mod trunk;
 
-/// Constants of placement that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
     [
         arm::CONSTANTS,
@@ -58,29 +57,24 @@ use limb::Limb;
 use tiers::Round;
 use trunk::Bent;
 
-/// Bend of the trunk's pieces before sewing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Bend {
     /// Offset `mu`: the middle of a trunk piece starts `mu H / 2` before the trunk's centre, `H` the body depth (4.18).
     /// `None`: the least offset that clears the body all along the piece and brings its sides to the body's sides.
     pub offset_mu: Option<f64>,
-    /// Angle over which trunk pieces are bent before sewing, rad (4.6). `None`: half an ellipse as wide as the body.
+    /// Angle over which trunk pieces are bent (4.6). `None`: half an ellipse as wide as the body.
     pub bend_angle_rad: Option<f64>,
 }
 
 impl Bend {
-    /// Another bend, the thesis's arc for slim bodies; `None` where the study asks for an offset or an angle.
-    #[must_use]
+    /// The thesis's arc for slim bodies; `None` where the study asks for an offset or an angle.
     pub fn otherwise(&self) -> Option<Self> {
         let follows_body = self.offset_mu.is_none() && self.bend_angle_rad.is_none();
         follows_body.then_some(Self { bend_angle_rad: Some(OTHER_BEND_RAD), ..*self })
     }
 }
 
-/// World positions of all garment vertices before sewing, m.
-///
-/// # Errors
-/// [`SimError::CannotPlace`] for a piece without a role that is sewn to no piece with one.
+/// Positions of all garment vertices before sewing. Fails for a piece without a role that is sewn to no piece with one.
 pub fn place(body: &Body, garment: &Garment, bend: &Bend) -> Result<Vec<V3>, SimError> {
     let mut placing = Placing {
         form: Form::of(body),
@@ -102,11 +96,10 @@ geom::constants! {
     /// Share of a piece's seams to placed pieces that a second piece sewn to it must have, where the two are halves of
     /// one part.
     const TWIN: f64 = 0.75;
-    /// Angle of the other bend, rad: that of [T] for slim bodies.
+    /// Angle of the other bend: that of [T] for slim bodies.
     const OTHER_BEND_RAD: f64 = 2.0 * std::f64::consts::PI / 3.0;
 }
 
-/// A garment half placed.
 struct Placing<'a> {
     form: Form<'a>,
     joins: Joins<'a>,
@@ -121,7 +114,6 @@ impl Placing<'_> {
         self.assign(&sheet.pieces(), limb, places);
     }
 
-    /// Gives the vertices of some pieces about a limb their places.
     fn assign(&mut self, pieces: &[usize], limb: &Limb, places: impl IntoIterator<Item = (usize, V3)>) {
         for (v, place) in places {
             self.positions[v] = place;
@@ -131,7 +123,6 @@ impl Placing<'_> {
         }
     }
 
-    /// Pieces that are placed.
     fn placed(&self) -> Vec<usize> {
         (0..self.limb.len()).filter(|&p| self.limb[p].is_some()).collect()
     }
@@ -204,9 +195,9 @@ impl Placing<'_> {
         Ok(())
     }
 
-    /// The piece not yet placed that has the longest seams to placed ones. About the trunk also a second piece that is
-    /// sewn to it and has about as long seams to them, as the other half of a hood. Placed by the first it would lie
-    /// beyond it, not beside it. The halves of a cuff are to lie so.
+    /// Unplaced piece with the longest seams to placed ones. About the trunk also a second piece that is sewn to it and
+    /// has about as long seams to them, as the other half of a hood. Placed by the first it would lie beyond it, not
+    /// beside it. The halves of a cuff are to lie so.
     fn next_followers(&self) -> Vec<Follower> {
         let placed = self.placed();
         let loose = (0..self.limb.len()).rev().filter(|&p| self.limb[p].is_none());
@@ -225,7 +216,6 @@ impl Placing<'_> {
         next
     }
 
-    /// The limb about which a piece goes: that of the pieces that it is sewn to.
     fn limb_of_partners(&self, piece: usize) -> Limb {
         let partners = self.placed().into_iter().filter(|&p| !self.joins.between(piece, p).is_empty());
         let mut limbs = partners.filter_map(|p| self.limb[p].as_ref());
@@ -244,7 +234,6 @@ impl Placing<'_> {
     }
 }
 
-/// Front and back of the trunk but for some pieces, each laid out as one sheet.
 fn trunk_sheets(joins: &Joins, without: &[usize]) -> [Sheet; 2] {
     let [in_front, behind] = [&trunk::FRONTS, &trunk::BACKS].map(|roles| {
         let pieces = joins.worn_as(roles).into_iter();
@@ -274,7 +263,6 @@ fn trunk_sheets(joins: &Joins, without: &[usize]) -> [Sheet; 2] {
     }
 }
 
-/// Sheets from left to right as seen from outside, by where they are sewn to the other side.
 fn ordered(joins: &Joins, sheets: Vec<Sheet>, other: &Sheet) -> Vec<Sheet> {
     let there = other.pieces();
     let place = |sheet: &Sheet| {

@@ -17,9 +17,9 @@ use geom::V2;
 
 geom::constants! {
     "placement.ring",
-    /// Greatest distance of the two sides of a seam in a ring that is laid out flat, rms m.
+    /// Greatest rms distance of the two sides of a seam in a ring that is laid out flat.
     const FLAT_M: f64 = 0.03;
-    /// Rotation below which a motion counts as a translation, rad.
+    /// Rotation below which a motion counts as a translation.
     const SHIFT_RAD: f64 = 0.05;
     /// Displacement of a ring's middle by the motion of its ends, over the rms distance of its points from there, below
     /// which the ring goes all round. Along a strip it is 1.5 or more.
@@ -37,42 +37,38 @@ geom::constants! {
 /// Pieces each of which is sewn to the next, and the last to the first; or one piece sewn to itself.
 pub struct Ring {
     members: Vec<Member>,
-    /// Motion that takes the first piece's side at the cut onto the last one's.
+    /// Takes the first piece's side at the cut onto the last one's.
     closing: Isometry2<f64>,
-    /// The seam at the cut, the last piece's vertices first.
+    /// Seam at the cut, the last piece's vertices first.
     cut: Vec<[usize; 2]>,
 }
 
 struct Member {
     piece: usize,
-    /// Motion from the piece's plane to that of the ring.
+    /// From the piece's plane to that of the ring.
     motion: Isometry2<f64>,
     /// Seam to the member before, its vertices first; none of the first.
     seam: Vec<[usize; 2]>,
 }
 
-/// A ring laid out flat: its vertices with their places.
 pub enum Flat {
-    /// Polar coordinates about the tip.
     Sector(Vec<Polar>),
-    /// To the right of the middle and up, m.
+    /// To the right of the middle and up.
     Strip(Vec<(usize, V2)>),
-    /// Row by row.
     Rows(Vec<InRow>),
 }
 
-/// A vertex in polar coordinates about the tip of a sector.
 #[derive(Clone, Copy, Debug)]
 pub struct Polar {
     pub vertex: usize,
     /// Counter-clockwise from the middle, rad.
     pub angle: f64,
-    /// Distance from the tip, m.
+    /// m.
     pub radius: f64,
 }
 
 impl Flat {
-    /// Angle of a sector, rad; 0 for a strip.
+    /// Angle of a sector; 0 for a strip.
     pub fn turn_rad(&self) -> f64 {
         match self {
             Self::Sector(points) => {
@@ -88,7 +84,7 @@ impl Flat {
         }
     }
 
-    /// Length of the upper edge, m: nearest the tip of a sector, or all along a strip.
+    /// Length of the upper edge: nearest the tip of a sector, or all along a strip.
     pub fn inner_m(&self) -> f64 {
         match self {
             Self::Sector(points) => self.turn_rad() * bounds(points.iter().map(|p| p.radius))[0],
@@ -101,15 +97,15 @@ impl Flat {
     }
 }
 
-/// A seam between two pieces or within one, in however many parts.
+/// Seam between two pieces or within one, in however many parts.
 struct Link {
     pieces: [usize; 2],
-    /// The first piece's vertex first.
+    /// The first piece's vertex comes first.
     pairs: Vec<[usize; 2]>,
 }
 
 impl Ring {
-    /// Some of a garment's pieces that are sewn to themselves, each as a ring.
+    /// Pieces sewn to themselves.
     pub fn of_one(joins: &Joins, some: &[usize]) -> Vec<Self> {
         let links = links(joins, some);
         let alone = |&piece: &usize| {
@@ -127,7 +123,7 @@ impl Ring {
         Self::among(joins, some, &between_pieces(joins, some))
     }
 
-    /// The same for skirts. Two pieces that are sewn to each other at both sides are a tier, and their seams to other
+    /// Rings of skirts. Two pieces that are sewn to each other at both sides are a tier, and their seams to other
     /// pieces are ignored as well.
     pub fn of_tiers(joins: &Joins, some: &[usize]) -> Vec<Self> {
         let mut links = between_pieces(joins, some);
@@ -147,7 +143,7 @@ impl Ring {
         some.iter().filter_map(|&first| Self::beginning(joins, links, &ends, first)).collect()
     }
 
-    /// The ring of several pieces in which `first` is the least; each must be sewn to two others, or twice to the only
+    /// Ring of several pieces in which `first` is the least; each must be sewn to two others, or twice to the only
     /// other.
     fn beginning(joins: &Joins, links: &[Link], ends: &BTreeMap<usize, Vec<usize>>, first: usize) -> Option<Self> {
         let two = |piece: usize| <[usize; 2]>::try_from(ends.get(&piece)?.as_slice()).ok();
@@ -169,24 +165,21 @@ impl Ring {
         }
     }
 
-    /// The ring of some pieces that is cut open at a seam, the last piece's vertices first.
     fn cut_at(joins: &Joins, seam: &[[usize; 2]], members: Vec<Member>) -> Self {
         let placed = members.last().map_or_else(Isometry2::identity, |last| last.motion);
         Self { closing: onto(joins, seam, &placed), cut: seam.to_vec(), members }
     }
 
-    /// The last piece's side at the cut.
     fn last_side(&self, joins: &Joins) -> Vec<Point2<f64>> {
         let last = self.members.last();
         last.map_or_else(Vec::new, |last| self.cut.iter().map(|pair| last.place(joins, pair[0])).collect())
     }
 
-    /// Its pieces, in order.
     pub fn pieces(&self) -> Vec<usize> {
         self.members.iter().map(|member| member.piece).collect()
     }
 
-    /// The ring laid out, with the middle of `in_front`, or of all, at the front.
+    /// Lays the ring out with the middle of `in_front`, or of all, at the front.
     pub fn flat(&self, joins: &Joins, in_front: &[usize]) -> Flat {
         if let Some(strips) = self.strips(joins, in_front) {
             return Flat::Rows(rows::laid_out(&strips));
@@ -197,7 +190,7 @@ impl Ring {
         }
     }
 
-    /// The pieces of a ring of several that are all long and straight.
+    /// `None` unless the ring has several pieces, all long and straight.
     fn strips(&self, joins: &Joins, in_front: &[usize]) -> Option<Vec<rows::Strip>> {
         let count = self.members.len();
         // Of each seam in order, the first before the first piece: the vertices of the piece after it and of that
@@ -241,7 +234,7 @@ impl Ring {
         self.members.iter().skip(1).map(side).chain([self.last_side(joins)]).collect()
     }
 
-    /// Least-squares intersection of the lines on which the sides lie, regularised towards `middle`.
+    /// Least-squares intersection of the lines of the sides, regularised towards `middle`.
     fn focus(&self, joins: &Joins, middle: &V2) -> V2 {
         let (mut matrix, mut goal) = (Matrix2::identity() * UNSURE, middle * UNSURE);
         for side in self.sides(joins).into_iter().filter(|side| side.len() > 1) {
@@ -294,7 +287,7 @@ impl Ring {
 }
 
 impl Member {
-    /// Its vertices in the ring's plane.
+    /// In the ring's plane.
     fn places(&self, joins: &Joins) -> Vec<(usize, Point2<f64>)> {
         let vertices = joins.garment.pieces[self.piece].vertices.clone();
         vertices.map(|v| (v, self.place(joins, v))).collect()
@@ -304,8 +297,7 @@ impl Member {
         self.motion * Point2::from(joins.garment.rest[v])
     }
 
-    /// Its vertices in polar coordinates about a tip. The angle is 0 in the piece's middle, or opposite `cut` where the
-    /// piece goes all round the tip.
+    /// Angle 0 is in the piece's middle, or opposite `cut` where the piece goes all round the tip.
     fn polar(&self, joins: &Joins, tip: &Point2<f64>, cut: &Point2<f64>) -> Vec<Polar> {
         let places = self.places(joins);
         let mean: V2 = places.iter().map(|(_, p)| p - tip).sum();
@@ -338,7 +330,7 @@ impl Member {
 }
 
 impl Link {
-    /// The piece at the other end than `piece`, and the pairs with this one's vertices first.
+    /// Piece at the other end, and the pairs with the vertices of `piece` first.
     fn from(&self, piece: usize) -> (usize, Vec<[usize; 2]>) {
         if piece == self.pieces[0] {
             (self.pieces[1], self.pairs.clone())
@@ -347,19 +339,17 @@ impl Link {
         }
     }
 
-    /// True if another link joins the same pieces and shares a vertex with this one.
+    /// True if both links join the same pieces and share a vertex.
     fn meets(&self, other: &Self) -> bool {
         let shares = |p: &[usize; 2]| other.pairs.iter().any(|q| p[0] == q[0] || p[1] == q[1]);
         self.pieces == other.pieces && self.pairs.iter().any(shares)
     }
 }
 
-/// Seams between different ones of some pieces.
 fn between_pieces(joins: &Joins, some: &[usize]) -> Vec<Link> {
     links(joins, some).into_iter().filter(|link| link.pieces[0] != link.pieces[1]).collect()
 }
 
-/// Seams between some pieces; parts that share a vertex are one.
 fn links(joins: &Joins, some: &[usize]) -> Vec<Link> {
     let link = |&[a, b]: &[usize; 2]| match [a, b].map(|v| joins.piece_of[v]) {
         [p, q] if p <= q => Link { pieces: [p, q], pairs: vec![[a, b]] },
@@ -384,7 +374,7 @@ fn links(joins: &Joins, some: &[usize]) -> Vec<Link> {
     links
 }
 
-/// Angle from one direction to another, counter-clockwise, rad.
+/// Counter-clockwise, rad.
 fn angle(from: &V2, to: &V2) -> f64 {
     from.perp(to).atan2(from.dot(to))
 }
@@ -393,7 +383,6 @@ fn mean(points: &[Point2<f64>]) -> Point2<f64> {
     Point2::from(points.iter().map(|p| p.coords).sum::<V2>() / points.len().max(1) as f64)
 }
 
-/// The motion that brings the second vertices of some pairs nearest to the first, which `placed` moves.
 fn onto(joins: &Joins, pairs: &[[usize; 2]], placed: &Isometry2<f64>) -> Isometry2<f64> {
     let rest = &joins.garment.rest;
     let own: Vec<V2> = pairs.iter().map(|pair| rest[pair[1]]).collect();
@@ -401,7 +390,6 @@ fn onto(joins: &Joins, pairs: &[[usize; 2]], placed: &Isometry2<f64>) -> Isometr
     Similarity::of(&own, &goals).motion()
 }
 
-/// Distance of the two sides of a seam when laid out, rms m.
 fn misfit_m(joins: &Joins, pairs: &[[usize; 2]], placed: &Isometry2<f64>, motion: &Isometry2<f64>) -> f64 {
     let rest = |v: usize| Point2::from(joins.garment.rest[v]);
     let squares = pairs.iter().map(|&[a, b]| (placed * rest(a) - motion * rest(b)).norm_squared());
@@ -417,8 +405,8 @@ mod tests {
     use super::*;
     use pattern::{Garment, garmentcode};
 
-    /// `count` gores of a sector of an angle, an inner radius that is a little larger on the left half, and a length,
-    /// cm; each is drawn after the motion `moved`.
+    /// Gores of a sector of an angle, an inner radius that is a little larger on the left half, and a length, cm; each
+    /// is drawn after the motion `moved`.
     fn gores(
         count: usize,
         turn_rad: f64,

@@ -19,25 +19,22 @@ geom::constants! {
     "placement.round",
     /// Share of a turn that a ring takes: one seam starts open.
     pub const ROUND: f64 = 0.95;
-    /// Least distance from the skin, m.
+    /// Least distance from the skin.
     const CLEARANCE_M: f64 = 0.02;
-    /// Half height of the band of the body that a point must clear, m.
+    /// Half height of the band of the body that a point must clear.
     const BAND_M: f64 = 0.02;
-    /// Least angle of a sector, rad.
     const LEAST_SPAN_RAD: f64 = 0.1;
     /// Greatest and least sine of the half angle of a cone, where a wide skirt would take more, and the steps between.
     const SPREADS: (f64, f64, u32) = (0.35, 0.2, 5);
     /// Sine of the half angle of the cone on which a sector starts, over that of the cone on which it closes without
     /// waves. On the latter its hem would turn in.
     const STEEPER: f64 = 0.7;
-    /// Number of waves of a skirt that is wider than its cone.
+    /// Waves of a skirt that is wider than its cone.
     const WAVES: f64 = 8.0;
-    /// Number of samples for the length of a wave.
     const SAMPLES: u32 = 32;
 }
 
-/// Vertices of a ring with their places; its upper edge lies at the height `top` and no farther from the axis than
-/// `within`.
+/// Places a ring with its upper edge at height `top`, no farther from the axis than `within`.
 pub fn place(form: &Form, flat: &Flat, top: f64, within: Option<f64>) -> Vec<(usize, V3)> {
     let axis = form.trunk_axis();
     let unrolled = Unrolled::of(flat);
@@ -58,20 +55,16 @@ pub fn place(form: &Form, flat: &Flat, top: f64, within: Option<f64>) -> Vec<(us
     rolled.iter().map(|p| (p.vertex, axis.point(p.angle, p.radius, top - p.below))).collect()
 }
 
-/// A vertex that is sewn to a placed one.
 pub struct Held {
-    /// The vertex.
     pub vertex: usize,
-    /// Place of the other, about a limb.
     pub partner: Cylindrical,
 }
 
-/// Mean of one of the partners' coordinates.
 pub fn mean(held: &[Held], coordinate: fn(&Cylindrical) -> f64) -> f64 {
     held.iter().map(|held| coordinate(&held.partner)).sum::<f64>() / held.len() as f64
 }
 
-/// Vertices of a ring with their places about a limb; it hangs from the partners of the vertices that are `held`.
+/// Places a ring about a limb; it hangs from the partners of `held`.
 pub fn place_about(form: &Form, limb: &Limb, flat: &Flat, held: &[Held]) -> Vec<(usize, V3)> {
     let (within, top) = (mean(held, |p| p.radius), mean(held, |p| p.height));
     let rolled = Unrolled::of(flat).rolled(SPREADS.0, within);
@@ -87,18 +80,16 @@ pub fn place_about(form: &Form, limb: &Limb, flat: &Flat, held: &[Held]) -> Vec<
     rolled.iter().map(|p| (p.vertex, limb.point(p.angle + turn, p.radius + wider, top - p.below))).collect()
 }
 
-/// A vertex on the cone, or the cylinder, on which its ring closes.
 struct OnCone {
     vertex: usize,
     /// From the front to the right seen from outside, rad.
     angle: f64,
     /// Radius of the circle that is as long as the ring there, m.
     radius: f64,
-    /// Distance from the upper edge, along the cone, m.
+    /// Distance from the upper edge along the cone, m.
     length: f64,
 }
 
-/// A ring as it is rolled: on the cone, or the cylinder, on which it closes.
 struct Unrolled {
     points: Vec<OnCone>,
     /// Radius of the upper edge, m.
@@ -109,7 +100,6 @@ struct Unrolled {
     spread: f64,
 }
 
-/// A point on the cone or cylinder.
 struct Rolled {
     vertex: usize,
     /// From the front to the right seen from outside, rad.
@@ -188,7 +178,6 @@ fn wave(ratio: f64) -> f64 {
     low
 }
 
-/// Greatest distance of the trunk's skin from its axis about a height.
 fn body_radius(form: &Form, axis: &Axis, height: f64) -> f64 {
     form.between(height - BAND_M, height + BAND_M).map(|p| axis.coordinates(p).radius).fold(0.0, f64::max)
 }

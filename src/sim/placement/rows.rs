@@ -18,32 +18,28 @@ geom::constants! {
     const STRAIGHT: f64 = 1.25;
 }
 
-/// A vertex in its row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InRow {
     pub vertex: usize,
     /// From the front to the right seen from outside, as a share of the row.
     pub share: f64,
-    /// Length of the row, m.
     pub row_m: f64,
-    /// Distance from the uppermost row, m.
+    /// Distance from the uppermost row.
     pub below_m: f64,
 }
 
-/// A piece between two seams, upright.
 pub struct Strip {
     points: Vec<(usize, V2)>,
-    /// Its left and right side seen from outside, from below.
+    /// Left and right side seen from outside, from below.
     sides: [Vec<V2>; 2],
-    /// True if the next piece lies to the right.
     is_rightwards: bool,
-    /// Height of its sides' upper ends, m.
+    /// Height of the sides' upper ends, m.
     top: f64,
     is_in_front: bool,
 }
 
 impl Strip {
-    /// A piece with the vertices that are sewn to the piece before and to the next; `None` where it is not long and
+    /// Takes the vertices that are sewn to the piece before and to the next; `None` where the piece is not long and
     /// straight.
     pub fn of(joins: &Joins, piece: usize, before: &[usize], next: &[usize], is_in_front: bool) -> Option<Self> {
         let upright = Rotation2::rotation_between(&joins.up(piece, V2::y()), &V2::y());
@@ -66,7 +62,6 @@ impl Strip {
         is_strip.then_some(Self { points, sides, is_rightwards, top, is_in_front })
     }
 
-    /// Ends of the row at a distance from the top, m.
     fn row(&self, below: f64) -> [f64; 2] {
         [0, 1].map(|side| across(&self.sides[side], self.top - below))
     }
@@ -77,7 +72,7 @@ impl Strip {
     }
 }
 
-/// A ring of pieces in order, the middle of those in front at the front.
+/// Ring of pieces in order, the middle of those in front at the front.
 pub fn laid_out(strips: &[Strip]) -> Vec<InRow> {
     let middle = 0.5 * strips.iter().flat_map(|s| s.points.iter().map(|(_, p)| s.top - p.y)).fold(0.0, f64::max);
     let row_m = |below: f64| strips.iter().map(|strip| strip.width(below)).sum::<f64>();
@@ -106,7 +101,7 @@ pub fn laid_out(strips: &[Strip]) -> Vec<InRow> {
     strips.iter().zip(&starts).flat_map(rows_of).collect()
 }
 
-/// Sideways place of a side, whose points are sorted from below, at a height.
+/// Sideways place at a height of a side whose points are sorted from below.
 fn across(side: &[V2], y: f64) -> f64 {
     let next = side.partition_point(|p| p.y < y).clamp(1, side.len() - 1);
     let [a, b] = [side[next - 1], side[next]];
@@ -124,8 +119,8 @@ mod tests {
     use super::*;
     use pattern::{Garment, garmentcode};
 
-    /// Two trapezoids sewn to each other at both sides: length of the upper edge, excess of the lower one at each side,
-    /// and height, cm.
+    /// Trapezoids sewn to each other at both sides: length of the upper edge, excess of the lower one at each side, and
+    /// height, cm.
     fn tier(lengths: [f64; 2], slant: f64, height: f64) -> Garment {
         let panel = |length: f64| {
             let vertices = [[-slant, 0.0], [length + slant, 0.0], [length, height], [0.0, height]];

@@ -74,7 +74,6 @@ fn legs_that_are_too_long_begin_clear_of_the_feet() {
     assert!(deepest > 0.0, "a triangle lies {deepest} m within a foot");
 }
 
-/// A front and a back of some roles with six gores of another below, three sewn to each.
 fn gored_dress([front, back, gores]: [Role; 3]) -> Garment {
     let top = [[-24.0, 0.0], [-8.0, 0.0], [8.0, 0.0], [24.0, 0.0], [24.0, 40.0], [-24.0, 40.0]];
     let gore = [[-16.0, -50.0], [16.0, -50.0], [8.0, 0.0], [-8.0, 0.0]];
@@ -117,7 +116,6 @@ fn gores_go_round_as_one() {
     check([Role::Waistband, Role::Waistband, Role::BodiceFront]);
 }
 
-/// Distances of the sides of a seam, m.
 fn gaps(seam: &SeamMesh, x: &[V3]) -> Vec<f64> {
     seam.pairs.iter().map(|[a, b]| (x[*a] - x[*b]).norm()).collect()
 }

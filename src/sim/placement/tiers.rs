@@ -12,19 +12,18 @@ use pattern::{Role, SeamMesh};
 
 geom::constants! {
     "placement.tiers",
-    /// Angle of a ring from which on it goes round as one, rad: as two sheets it comes to rest as a tent, not in folds.
+    /// Angle of a ring from which on it goes round as one: as two sheets it comes to rest as a tent, not in folds.
     const WIDE_RAD: f64 = 0.35 * TAU;
-    /// Angle of two halves sewn to each other from which on they go round a limb as one, rad: cuffs and peplums of half
+    /// Angle of two halves sewn to each other from which on they go round a limb as one: cuffs and peplums of half
     /// circles.
     const FLARED_RAD: f64 = 1.0;
     /// Length of a ring over the narrowest edge that a skirt is gathered into from which on it goes round as one. As
     /// two sheets, strips gathered four times cannot be sewn, nor three tiers each gathered by half.
     const GATHERED: f64 = 1.8;
-    /// Longest inner edge of a wide ring that hangs from the neck, as a cape does, m.
+    /// Longest inner edge of a wide ring that hangs from the neck, as a cape does.
     const NECK_M: f64 = 0.55;
 }
 
-/// Pieces that go round a limb, laid out flat.
 pub struct Round {
     pub pieces: Vec<usize>,
     flat: Flat,
@@ -38,7 +37,6 @@ impl Round {
 }
 
 impl Placing<'_> {
-    /// Some rings laid out flat, the middle of their fronts at the front.
     fn laid_out(&self, rings: &[Ring]) -> Vec<Round> {
         let fronts = self.joins.worn_as(&trunk::FRONTS);
         rings.iter().map(|ring| Round { pieces: ring.pieces(), flat: ring.flat(&self.joins, &fronts) }).collect()
@@ -82,8 +80,8 @@ impl Placing<'_> {
         wide
     }
 
-    /// Length of the edge that a ring is gathered into, m, by the seam that gathers it most; of its own upper edge
-    /// where none does.
+    /// Length of the edge that a ring is gathered into, by the seam that gathers it most; of its own upper edge where
+    /// none does.
     fn gathered_m(&self, ring: &Round) -> f64 {
         let Joins { garment, piece_of, .. } = &self.joins;
         let length = |seam: &SeamMesh, side: usize| {
@@ -117,8 +115,7 @@ impl Placing<'_> {
         }
     }
 
-    /// True if a ring of pieces without a role can be the gores of a skirt: more than two, as wide as a trunk, and on
-    /// no limb.
+    /// True for more than two pieces without a role, as wide as a trunk, and on no limb.
     fn are_gores(&self, ring: &Round) -> bool {
         let partners = (0..self.limb.len()).filter(|&p| !self.joins.to_any(p, &ring.pieces).is_empty());
         let is_on_limb = partners.filter_map(|p| self.limb[p].as_ref()).any(|limb| *limb != self.about_trunk());
@@ -137,7 +134,6 @@ impl Placing<'_> {
         }
     }
 
-    /// The vertices of a ring that are sewn to placed ones, with the places of these about a limb.
     fn held(&self, ring: &Round, limb: &Limb) -> Vec<Held> {
         let placed = self.placed();
         let pairs = ring.pieces.iter().flat_map(|&p| self.joins.to_any(p, &placed));
@@ -156,7 +152,6 @@ impl Placing<'_> {
         self.assign(&ring.pieces, &trunk, places);
     }
 
-    /// Rolls a ring about a limb, next to the pieces that it is sewn to.
     pub fn roll_about(&mut self, ring: &Round, limb: &Limb) {
         let places = round::place_about(&self.form, limb, &ring.flat, &self.held(ring, limb));
         self.assign(&ring.pieces, limb, places);

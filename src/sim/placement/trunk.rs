@@ -11,12 +11,10 @@ use pattern::Role;
 
 geom::constants! {
     "placement.trunk",
-    /// Least distance of a piece from the skin before sewing, m.
+    /// Least distance of a piece from the skin before sewing.
     pub const CLEARANCE_M: f64 = 0.02;
-    /// Room between the ends of front and back, m.
     const BETWEEN_M: f64 = 0.01;
-    /// Share of the half width within which the skin bounds the depth of the ellipse: at the sides the ellipse has no
-    /// depth.
+    /// Share of the half width within which the skin bounds the depth of the ellipse: at the sides it has no depth.
     const BOUNDING: f64 = 0.9;
     /// Share of a turn that a piece takes if it goes round the body alone.
     const ROUND: f64 = 0.95;
@@ -24,23 +22,18 @@ geom::constants! {
     const SHOULDER_SLOPE: f64 = 1.0;
     /// Offset and angle of [T], for the one that the study does not give.
     const USUAL: (f64, f64) = (2.1, PI);
-    /// Least angle of an arc, rad: a flat piece has no radius.
+    /// Least angle of an arc: a flat piece has no radius.
     const FLAT_RAD: f64 = 0.01;
 }
 
-/// Roles that hang from the shoulders.
 pub const TOPS: [Role; 4] = [Role::Front, Role::Back, Role::BodiceFront, Role::BodiceBack];
-/// Roles in front of the trunk.
 pub const FRONTS: [Role; 3] = [Role::Front, Role::BodiceFront, Role::SkirtFront];
-/// Roles behind the trunk.
 pub const BACKS: [Role; 3] = [Role::Back, Role::BodiceBack, Role::SkirtBack];
 
-/// The sheet of one side of the trunk, bent.
 pub struct Bent {
     /// 1 in front, -1 behind.
     side: f64,
     curve: Ellipse,
-    /// `y` of the curve's centre.
     centre_y: f64,
     /// Height of the sheet's 0.
     lift: f64,
@@ -75,7 +68,6 @@ impl Bent {
         Self { side, curve: Ellipse::reaching(half_width, least, half_round), centre_y: axis, lift }
     }
 
-    /// Place of a point of the sheet.
     pub fn at(&self, p: V2) -> V3 {
         let bent = self.curve.at(p.x);
         // Seen from outside, x runs to the subject's left in front and to the right behind.
@@ -102,7 +94,7 @@ fn lift(form: &Form, joins: &Joins, sheet: &Sheet) -> f64 {
     }
 }
 
-/// True if a seam over the shoulders holds the sheet: one to the other side that runs sideways, or one to a sleeve.
+/// True if a seam to the other side that runs sideways, or one to a sleeve, holds the sheet.
 fn has_shoulders(joins: &Joins, sheet: &Sheet) -> bool {
     let own = sheet.pieces();
     let others: Vec<usize> = joins.worn_as(&TOPS).into_iter().filter(|p| !own.contains(p)).collect();
@@ -122,7 +114,6 @@ fn has_shoulders(joins: &Joins, sheet: &Sheet) -> bool {
     })
 }
 
-/// Pieces worn on the arms.
 pub fn sleeves(joins: &Joins) -> Vec<usize> {
     joins.worn_as(&[Role::SleeveRight, Role::SleeveLeft])
 }

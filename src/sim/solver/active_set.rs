@@ -13,26 +13,21 @@ use geom::V3;
 
 geom::constants! {
     "solver.active_set",
-    /// Displacement from which a vertex counts as moving, as a share of the greatest one.
     const MOVING_SHARE: f64 = 0.1;
-    /// Margin of a part around the moving vertices, in edges.
     const MARGIN_EDGES: usize = 4;
-    /// Greatest part that is stepped by itself, as a share of the vertices.
     const MOST_SHARE: f64 = 0.25;
-    /// Least number of vertices of a cloth that is divided.
     const LEAST_VERTICES: usize = 1000;
-    /// Greatest number of steps of a part before the whole cloth steps again.
+    /// Steps of a part before the whole cloth steps again.
     const MOST_STEPS: usize = 6;
-    /// Free path below which a part stops, m. Near pairs can then be missing, and have to be searched in the whole
-    /// cloth.
+    /// Free path below which a part stops: near pairs can then be missing, and have to be searched in the whole cloth.
     const LEAST_PATH_M: f64 = 1e-3;
     /// Residual that ends the steps of a part, as a share of that which ends the drape.
     const TOLERANCE_SHARE: f64 = 0.5;
 }
 
 impl Stepper {
-    /// Takes one step from `x`, unless the residual is already at most `tolerance`. If it has moved only a small part
-    /// of the cloth, that part then takes some more steps. Returns the residual before the step and its length.
+    /// Takes one step, unless the residual is already at most `tolerance`. If it has moved only a small part of the
+    /// cloth, that part then takes some more. Returns the residual before the step and its length.
     pub fn step(&mut self, system: &mut System, x: &mut Vec<V3>, tolerance: f64) -> StepInfo {
         let info = self.step_whole(system, x, tolerance);
         let has_settled = info.residual > tolerance && self.h_s >= self.params.h_max_s;
@@ -45,9 +40,7 @@ impl Stepper {
     }
 }
 
-/// Marks the vertices that `moved` in a step, with a margin; `None` unless they are few and can be stepped by
-/// themselves.
-#[must_use]
+/// Marks the vertices that `moved`, with a margin; `None` unless they are few and can be stepped by themselves.
 fn moving(system: &System, moved: &[V3]) -> Option<Vec<bool>> {
     let is_whole = moved.len() < LEAST_VERTICES
         || system.springs.is_some()
@@ -73,8 +66,8 @@ fn moving(system: &System, moved: &[V3]) -> Option<Vec<bool>> {
     (0 < count && (count as f64) < MOST_SHARE * moved.len() as f64).then_some(is_moving)
 }
 
-/// Steps the `free` vertices of a cloth at `x` until their residual would be low enough for the whole cloth, or for a
-/// few steps. `predicted` are the predicted stresses of its membrane, which are updated.
+/// Steps the `free` vertices until their residual would be low enough for the whole cloth, or for a few steps. Updates
+/// the `predicted` stresses.
 fn relax(
     system: &mut System,
     x: &mut [V3],
@@ -112,7 +105,6 @@ fn relax(
     system.take_anchors(&part, &alone);
 }
 
-/// Makes a system of a part of another: `cloth` is the cloth of the part, at `own`.
 fn alone<'c>(system: &System<'c>, part: &Part, cloth: &'c Cloth, own: &[V3]) -> System<'c> {
     let mut alone = System::new(cloth, system.contact.part(part), None);
     alone.weights = part.of(&system.weights);
@@ -133,8 +125,6 @@ mod tests {
 
     const EDGE_M: f64 = 0.01;
 
-    /// A square of 40 x 40 whose upper half is folded over, with one layer 1 mm above the other, and the positions of
-    /// its vertices.
     fn folded() -> (Cloth, Vec<V3>) {
         let mut garment = laboratory::garment(sheets::sheet(40, 40, EDGE_M));
         let band =

@@ -10,26 +10,22 @@ use geom::units::GRAVITY;
 
 geom::constants! {
     "solver.braces",
-    /// Range below the highest point of a free edge in which the vertices of free edges are held, as a share of the
-    /// height of the cloth. A waist is lower in front. The front of a coat that is open all the way down is not held
-    /// below.
+    /// Range below the highest point of a free edge in which its vertices are held, as a share of the height of the
+    /// cloth. A waist is lower in front. The front of a coat that is open all the way down is not held below.
     const TOP_SHARE: f64 = 0.1;
-    /// Deflection of the springs under the whole weight, m.
+    /// Deflection of the springs under the whole weight.
     const YIELD_M: f64 = 1e-4;
 }
 
 /// Vertical springs on vertices. Energy `k/2 (z - z0)^2` each, J.
 #[derive(Clone, Debug)]
 pub struct Braces {
-    /// Vertex and its height `z0`, m.
+    /// Vertex and height `z0`, m.
     held: Vec<(usize, f64)>,
-    /// Stiffness `k` of each spring, N/m.
     stiffness_n_m: f64,
 }
 
 impl Braces {
-    /// Sets up the braces of cloth whose vertices are at `x`, m.
-    #[must_use]
     pub fn new(cloth: &Cloth, x: &[V3]) -> Self {
         let mut edge: Vec<usize> = free_edges(&cloth.triangles).into_iter().flatten().collect();
         edge.sort_unstable();
@@ -42,28 +38,25 @@ impl Braces {
         Self { stiffness_n_m: weight / (YIELD_M * held.len().max(1) as f64), held }
     }
 
-    /// Energy, J.
-    #[must_use]
+    /// J.
     pub fn energy(&self, x: &[V3]) -> f64 {
         self.held.iter().map(|(v, z)| 0.5 * self.stiffness_n_m * (x[*v].z - z).powi(2)).sum()
     }
 
-    /// Adds the forces, N.
+    /// N.
     pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
         for (v, z) in &self.held {
             forces[*v].z -= self.stiffness_n_m * (x[*v].z - z);
         }
     }
 
-    /// Adds the stiffness, N/m.
+    /// N/m.
     pub fn add_stiffness(&self, diagonal: &mut [Matrix3<f64>]) {
         for (v, _) in &self.held {
             diagonal[*v][(2, 2)] += self.stiffness_n_m;
         }
     }
 
-    /// Vertical force that they carry at `x`, N.
-    #[must_use]
     pub fn carry_n(&self, x: &[V3]) -> f64 {
         self.held.iter().map(|(v, z)| self.stiffness_n_m * (z - x[*v].z)).sum()
     }

@@ -7,44 +7,36 @@ geom::constants! {
     "solver.line_search",
     /// Armijo's constant: share of the linearly predicted decrease that a step must reach.
     const SUFFICIENT_DECREASE: f64 = 1e-4;
-    /// Greatest number of halvings of the step length.
     const MOST_HALVINGS: usize = 12;
     /// Factor by which a full step is lengthened, repeatedly while the energy falls. The stiffness leaves out
     /// compression, and so steps are too short where cloth buckles.
     const LENGTHENING: f64 = 1.5;
-    /// Greatest number of lengthenings.
     const MOST_LENGTHENINGS: usize = 6;
-    /// Least residual force that a full step is expected to leave, as a share of the force before it. Where the
-    /// residual asked for is lower, the force after the step is not computed.
+    /// Least residual force that a full step is expected to leave, as a share of that before it. Where the residual
+    /// asked for is lower, the force after the step is not computed.
     const GREATEST_FALL: f64 = 0.02;
 }
 
-/// The curve of a line search: `x + alpha direction + alpha^2 correction`.
+/// Curve of a line search: `x + alpha direction + alpha^2 correction`.
 pub struct Line<'s, 'c> {
-    /// Cloth with its loads and contacts.
     pub system: &'s System<'c>,
-    /// Start of the step, m.
     pub x: &'s [V3],
-    /// Energy and forces at the start.
     pub start: &'s Assembled<'c>,
-    /// Displacement of the linear solve, m.
+    /// Displacement of the linear solve.
     pub direction: &'s [V3],
-    /// Second-order correction, m.
     pub correction: &'s [V3],
     /// Diagonal of the proximal term `M / h^2`, N/m.
     pub inertia: &'s [f64],
 }
 
-/// Outcome of a line search.
 pub struct Reached {
-    /// Step length; 0 where no length reduces the energy.
+    /// 0 where no length reduces the energy.
     pub alpha: f64,
-    /// Positions at that length, m.
     pub positions: Vec<V3>,
 }
 
 impl Line<'_, '_> {
-    /// Positions at a step length, with the correction (`corrected` 1) or without it (0).
+    /// With the correction (`corrected` 1) or without it (0).
     fn point(&self, alpha: f64, corrected: f64) -> Vec<V3> {
         let moved = |((p, d), c): ((&V3, &V3), &V3)| p + d * alpha + c * (corrected * alpha * alpha);
         self.x.iter().zip(self.direction).zip(self.correction).map(moved).collect()
@@ -59,10 +51,8 @@ impl Line<'_, '_> {
     /// Searches the longest `alpha` at which the proximal energy has decreased enough. The correction is applied where
     /// the energy then decreases; else the step follows the direction alone.
     ///
-    /// A full step is lengthened while the energy falls, unless its root-mean-square force is at most `enough_n`.
-    /// Lengthening it would then bring back the stiff forces that it has just balanced. Without `enough_n` no step is
-    /// lengthened.
-    #[must_use]
+    /// A full step is lengthened while the energy falls, unless its root-mean-square force is at most `enough_n`: that
+    /// would bring back the stiff forces that it has just balanced. Without `enough_n` no step is lengthened.
     pub fn search(&self, enough_n: Option<f64>) -> Reached {
         let slope: f64 = self.start.forces.iter().zip(self.direction).map(|(f, d)| f.dot(d)).sum();
         let mut alpha = 1.0;
@@ -85,13 +75,12 @@ impl Line<'_, '_> {
         Reached { alpha: 0.0, positions: self.x.to_vec() }
     }
 
-    /// True if a full step to these positions leaves a root-mean-square force of at most `enough_n`, N. It is false
-    /// without computing the forces where no step could reach that.
+    /// True if a full step leaves a root-mean-square force of at most `enough_n`. False without computing the forces
+    /// where no step could reach that.
     fn is_enough(&self, enough_n: f64, positions: &[V3]) -> bool {
         enough_n > GREATEST_FALL * rms(&self.start.forces) && rms(&self.system.forces(positions)) <= enough_n
     }
 
-    /// Lengthens a full step, whose energy is `least`, while the energy falls.
     fn lengthen(&self, corrected: f64, mut least: f64, mut positions: Vec<V3>) -> Reached {
         let mut alpha = 1.0;
         for _ in 0..MOST_LENGTHENINGS {

@@ -9,7 +9,6 @@ pub mod system;
 pub use proximal::{StepInfo, StepParams, Stepper};
 pub use system::System;
 
-/// Collects the constants of the solver that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
     [active_set::CONSTANTS, braces::CONSTANTS, line_search::CONSTANTS, proximal::CONSTANTS, system::CONSTANTS].concat()
 }

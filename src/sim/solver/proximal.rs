@@ -25,31 +25,25 @@ use geom::V3;
 use linalg::linear;
 use linalg::pcg::PcgParams;
 
-/// Step sizes of the solver, and tolerances of its linear systems.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct StepParams {
-    /// First step size, s.
     pub h_start_s: f64,
-    /// Least step size, s.
     pub h_min_s: f64,
-    /// Greatest step size, s.
     pub h_max_s: f64,
-    /// Growth of the step size after a full step.
     pub growth: f64,
-    /// Greatest displacement of a vertex in a step, m. A longer step is shortened for all vertices alike. Shortened for
+    /// Greatest displacement of a vertex in a step. A longer step is shortened for all vertices alike. Shortened for
     /// some alone it would shear the cloth, and no longer be a descent direction.
     pub clamp_m: f64,
-    /// Relative tolerance of the linear solve.
+    /// Relative tolerance.
     pub linear_tolerance: f64,
-    /// Greatest number of iterations of the linear solve.
     pub linear_iterations: usize,
-    /// Step size `h` in the proximal term of the second-order correction, s. It is so small that the weight of a vertex
-    /// moves it by less than 0.2 mm, so that the correction is the shortest one.
+    /// Step size in the proximal term of the second-order correction. So small that the weight of a vertex moves it by
+    /// less than 0.2 mm, so that the correction is the shortest one.
     pub correction_h_s: f64,
-    /// Relative tolerance of the correction's linear solve.
+    /// Relative tolerance.
     pub correction_tolerance: f64,
-    /// Greatest number of iterations of the linear solve of the correction. Mostly it takes three. Near rest it would
-    /// take fifty, and save no step.
+    /// Greatest number of iterations of the correction's linear solve. Mostly it takes three. Near rest it would take
+    /// fifty, and save no step.
     pub correction_iterations: usize,
 }
 
@@ -70,32 +64,28 @@ impl Default for StepParams {
     }
 }
 
-/// Outcome of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepInfo {
     /// Root mean square of the forces over the mean weight of a vertex, *before* the step.
     pub residual: f64,
-    /// Step length `alpha`: 1 for the full step, more where it was lengthened, 0 where no length reduced the energy.
+    /// 1 for the full step, more where it was lengthened, 0 where no length reduced the energy.
     pub alpha: f64,
-    /// Root mean square displacement of the full step that the linear solve found, m; 0 where none was needed.
+    /// Root mean square displacement of the full step that the linear solve found; 0 where none was needed.
     pub reach_m: f64,
-    /// Root mean square displacement of the step, m.
     pub moved_m: f64,
 }
 
-/// State of the method between steps.
 pub struct Stepper {
     pub(super) params: StepParams,
-    /// Step size `h`, s.
+    /// Step size `h`.
     pub(super) h_s: f64,
     /// Displacement of the last step, with which the linear solve starts: soft modes continue in their direction for
     /// many steps.
     pub(super) last: Option<Vec<V3>>,
     /// Stress of each membrane element that the last linear solve predicted, N/m.
     pub(super) predicted: Option<Vec<Tensor>>,
-    /// Number of successive steps that moved nothing at the least step size.
+    /// Successive steps that moved nothing at the least step size.
     idle: u32,
-    /// True if full steps may be lengthened.
     lengthens: bool,
 }
 
@@ -103,66 +93,57 @@ geom::constants! {
     "solver.proximal",
     /// Share of the compressive force along the last step that the next one adds.
     const RUNS_ON: f64 = 0.5;
-    /// Step size `h` from which that is done, s. The first steps on a finer mesh remove errors of the prolongation, and
-    /// do not predict the next.
+    /// Step size from which that is done. The first steps on a finer mesh remove errors of the prolongation, and do not
+    /// predict the next.
     const RUNS_ON_FROM_S: f64 = 0.5;
     /// Residual forces of a full step up to which it is not lengthened, as a multiple of the final tolerance. The next
     /// step takes what the linear solve leaves of them.
     const ENOUGH: f64 = 2.0;
-    /// Step size `h` from which full steps may be lengthened, s. Lengthened steps throw cloth that has only begun to
-    /// settle off the body.
+    /// Step size from which full steps may be lengthened. Lengthened steps throw cloth that has only begun to settle
+    /// off the body.
     const LENGTHENED_FROM_S: f64 = 0.2;
-    /// Number of successive steps at the least step size that may move nothing. The first also discards the
-    /// displacement of the step before it, and the second lets the friction anchors follow. Every later step repeats
-    /// the third.
+    /// Successive steps at the least step size that may move nothing. The first also discards the displacement of the
+    /// step before it, and the second lets the friction anchors follow. Every later step repeats the third.
     const IDLE_STEPS: u32 = 3;
 }
 
 impl Stepper {
-    /// Starts at the first step size.
-    #[must_use]
     pub fn new(params: StepParams) -> Self {
         Self { params, h_s: params.h_start_s, last: None, predicted: None, idle: 0, lengthens: true }
     }
 
     /// Continues another run at the greatest step size, with the membrane stresses that it predicted.
-    #[must_use]
     pub fn going_on(params: StepParams, predicted: Vec<Tensor>) -> Self {
         Self { params, h_s: params.h_max_s, last: None, predicted: Some(predicted), idle: 0, lengthens: true }
     }
 
-    /// True if no step length reduces the energy any more at the least step size: further steps would do the same.
-    #[must_use]
+    /// True if no step length reduces the energy at the least step size: further steps would do the same.
     pub fn is_stuck(&self) -> bool {
         self.idle >= IDLE_STEPS
     }
 
-    /// Lengthens no step any more. Near rest a lengthened step follows soft modes for a micrometre, and calls back the
-    /// stiff forces that the full one has balanced.
+    /// Near rest a lengthened step follows soft modes for a micrometre, and calls back the stiff forces that the full
+    /// one has balanced.
     pub fn stop_lengthening(&mut self) {
         self.lengthens = false;
     }
 
-    /// True if full steps may be lengthened.
-    #[must_use]
     pub fn lengthens(&self) -> bool {
         self.lengthens
     }
 
     /// True if the step size has grown to its greatest value: the proximal term no longer shortens steps.
-    #[must_use]
     pub fn is_unhindered(&self) -> bool {
         self.h_s >= self.params.h_max_s
     }
 
     /// Membrane stresses that the last step predicted, N/m; empty before the first.
-    #[must_use]
     pub fn predicted(&self) -> &[Tensor] {
         self.predicted.as_deref().unwrap_or_default()
     }
 
-    /// Takes one step of the whole cloth from `x`, unless the residual is already at most `tolerance`. Returns the
-    /// residual before the step and its length.
+    /// Takes one step of the whole cloth, unless the residual is already at most `tolerance`. Returns the residual
+    /// before the step and its length.
     pub fn step_whole(&mut self, system: &mut System, x: &mut Vec<V3>, tolerance: f64) -> StepInfo {
         let mut start = system.assemble(x, self.predicted.as_deref());
         let mut residual = rms(&start.forces) / system.mean_weight();
@@ -208,8 +189,7 @@ impl Stepper {
         StepInfo { residual, alpha, reach_m, moved_m }
     }
 
-    /// Right-hand side of the linear solve where `forces` act: these, plus a share of the compressive force along the
-    /// last step.
+    /// Right-hand side of the linear solve: `forces`, plus a share of the compressive force along the last step.
     ///
     /// The assembled stiffness `K` leaves out the compressive part `C`; the true one is `K - C`. The relative error is
     /// the greater, the softer a fold is. `K d = f` is solved instead of `K d = f + C d`. The last step resembles this
@@ -225,7 +205,7 @@ impl Stepper {
     }
 
     /// Second-order correction of a step from `x`, where `start` acts without inertia, and the stresses predicted at
-    /// the end of the step.
+    /// its end.
     fn correction(&self, system: &System, start: &Assembled, x: &[V3], direction: &[V3]) -> (Vec<V3>, Vec<Foreseen>) {
         let Excess { forces, mut operator, foreseen } = system.excess(start, x, direction);
         let h2 = self.params.correction_h_s * self.params.correction_h_s;
@@ -242,7 +222,6 @@ impl Stepper {
     }
 }
 
-/// Shortens a direction so that no vertex moves farther than `farthest_m`.
 fn shorten(direction: &mut [V3], farthest_m: f64) {
     let longest = direction.iter().map(V3::norm).fold(0.0, f64::max);
     if longest > farthest_m {
@@ -250,7 +229,6 @@ fn shorten(direction: &mut [V3], farthest_m: f64) {
     }
 }
 
-/// Adds the proximal term `M / h^2` to the diagonal blocks.
 fn add_inertia(diagonal: &mut [Matrix3<f64>], inertia: &[f64]) {
     for (block, m) in diagonal.iter_mut().zip(inertia) {
         *block += Matrix3::identity() * *m;

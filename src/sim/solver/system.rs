@@ -23,18 +23,17 @@ use linalg::quad::Block;
 
 geom::constants! {
     "solver.system",
-    /// Stiffness that holds a vertex, N/m. It exceeds that of any fabric by six orders of magnitude.
+    /// Stiffness that holds a vertex, N/m. Six orders of magnitude above that of any fabric.
     const HELD_STIFFNESS: f64 = 1e10;
     /// Penalty stiffness `k` of walls and covers, N/m3. The energy of a vertex with the area `A` at the depth `d` is `k
     /// A d^2 / 2`, J.
     const WALL_STIFFNESS: f64 = 1e5;
 }
 
-/// Energy, forces and stiffness of a cloth at some positions.
 pub struct Assembled<'a> {
     /// Potential energy, J.
     pub energy: f64,
-    /// Force on each vertex, N.
+    /// N.
     pub forces: Vec<V3>,
     /// Part of the forces that comes from contacts, walls and braces, N.
     pub contact_forces: Vec<V3>,
@@ -44,63 +43,50 @@ pub struct Assembled<'a> {
 
 /// Forces at the end of a step that its linear solve did not predict, with the stiffness there.
 pub struct Excess<'a> {
-    /// Forces at the end in excess of the predicted ones, N.
+    /// N.
     pub forces: Vec<V3>,
     /// Stiffness at the end, N/m.
     pub operator: Operator<'a>,
-    /// Predicted stresses of the membrane.
     pub foreseen: Vec<Foreseen>,
 }
 
-/// A cloth with its loads, contacts and constraints.
+/// Cloth with its loads, contacts and constraints.
 pub struct System<'a> {
-    /// Masses, areas and elastic energies of the cloth.
     pub cloth: &'a Cloth,
-    /// Weight of each vertex, N.
+    /// N.
     pub weights: Vec<f64>,
-    /// Contact with the body.
     pub contact: BodyContact<'a>,
-    /// Contact of the cloth with itself.
     pub self_contact: Option<ClothContact<'a>>,
-    /// Seam springs, until the seams are welded.
+    /// Until the seams are welded.
     pub springs: Option<Springs>,
-    /// Walls between the cloth of limbs, until the seams are welded.
+    /// Between the cloth of limbs, until the seams are welded.
     pub walls: Option<Walls>,
     /// Garment worn over the cloth, which keeps within it.
     pub cover: Option<&'a Cover>,
-    /// Springs that hold the cloth by its top edge.
+    /// Hold the cloth by its top edge.
     pub braces: Option<Braces>,
-    /// Vertices that do not move.
     pub held: Vec<usize>,
-    /// Solver of the linear systems; it keeps factors from step to step.
+    /// Keeps factors from step to step.
     pub linear: LinearSolver,
 }
 
-/// Energies of a cloth that have been computed already.
 struct KnownEnergies {
-    /// Strain energy of the membrane, J.
     membrane_j: f64,
-    /// Bending energy, J.
     bending_j: f64,
-    /// Energy of the contact with the body, J.
     contact_j: f64,
-    /// Energy of the contact of the cloth with itself, J.
     self_contact_j: f64,
 }
 
-/// A vertex that violates a wall or a cover.
 struct Trespass {
     vertex: usize,
-    /// Depth of the violation, m.
     depth_m: f64,
     /// Unit direction back.
     back: V3,
 }
 
 impl<'a> System<'a> {
-    /// Sets up a cloth under gravity and body contact. Cloth with open seams is weightless: a dress could fall off the
-    /// shoulders before they are closed, depending on the pull of the springs.
-    #[must_use]
+    /// Cloth with open seams is weightless: a dress could fall off the shoulders before they are closed, depending on
+    /// the pull of the springs.
     pub fn new(cloth: &'a Cloth, contact: BodyContact<'a>, springs: Option<Springs>) -> Self {
         let gravity = if springs.is_some() { 0.0 } else { GRAVITY };
         let weights = cloth.masses.iter().map(|m| m * gravity).collect();
@@ -118,7 +104,7 @@ impl<'a> System<'a> {
         }
     }
 
-    /// Switches friction on, with the coefficients of the cloth. Anchors are set at its present position.
+    /// Switches friction on. Anchors are set at the present position.
     pub fn set_friction(&mut self) {
         let frictions = &self.cloth.frictions;
         self.contact.set_friction(frictions.iter().map(|friction| friction.body));
@@ -128,19 +114,17 @@ impl<'a> System<'a> {
     }
 
     /// Makes friction hold all contacts from now on, whatever the force. Contacts that have slid are just at their
-    /// Coulomb limit: a small motion in one direction would be held, and in the other not.
+    /// Coulomb limit: they would be held in one direction only.
     pub fn hold_fast(&mut self) {
         self.contact.hold_fast();
         self.self_contact.iter_mut().for_each(ClothContact::hold_fast);
     }
 
-    /// Updates the friction anchors after a step to `x`: the anchor of a contact that has slid is dragged along.
     pub fn drag_anchors(&mut self, x: &[V3]) {
         self.contact.drag_anchors(x);
         self.self_contact.iter_mut().for_each(|contact| contact.drag_anchors(x));
     }
 
-    /// Takes over the friction anchors of a part of the cloth.
     pub fn take_anchors(&mut self, part: &Part, alone: &System) {
         self.contact.take_anchors(part, &alone.contact);
         if let (Some(contact), Some(of_part)) = (&mut self.self_contact, &alone.self_contact) {
@@ -148,21 +132,19 @@ impl<'a> System<'a> {
         }
     }
 
-    /// Mean weight of a vertex, N: the unit of the residual.
-    #[must_use]
+    /// N: the unit of the residual.
     pub fn mean_weight(&self) -> f64 {
         self.cloth.masses.iter().sum::<f64>() * GRAVITY / self.cloth.len() as f64
     }
 
-    /// Potential energy, J.
-    #[must_use]
+    /// J.
     pub fn energy(&self, x: &[V3]) -> f64 {
         let (membrane_j, bending_j) = (self.cloth.membrane.energy(x), self.cloth.bending.energy(x));
         let self_contact_j = self.self_contact.as_ref().map_or(0.0, |c| c.energy(x));
         self.total_energy(x, KnownEnergies { membrane_j, bending_j, contact_j: self.contact.energy(x), self_contact_j })
     }
 
-    /// Potential energy, J, given those of its parts that are known.
+    /// J, given those of its parts that are known.
     fn total_energy(&self, x: &[V3], known: KnownEnergies) -> f64 {
         let KnownEnergies { membrane_j, bending_j, contact_j, self_contact_j } = known;
         let height: f64 = self.weights.iter().zip(x).map(|(w, p)| w * p.z).sum();
@@ -182,8 +164,7 @@ impl<'a> System<'a> {
             + braced_j
     }
 
-    /// Forces at `x`, N, with the friction contacts and near pairs of the last [`System::assemble`].
-    #[must_use]
+    /// N, with the friction contacts and near pairs of the last [`System::assemble`].
     pub fn forces(&self, x: &[V3]) -> Vec<V3> {
         let mut forces = vec![V3::zeros(); x.len()];
         self.add_outer_forces(x, &mut forces);
@@ -196,7 +177,7 @@ impl<'a> System<'a> {
         forces
     }
 
-    /// Adds the forces of contacts, walls and braces at `x`, N, with the friction contacts and near pairs of the last
+    /// Adds the forces of contacts, walls and braces, N, with the friction contacts and near pairs of the last
     /// [`System::assemble`].
     pub fn add_outer_forces(&self, x: &[V3], forces: &mut [V3]) {
         self.contact.add_forces(x, forces);
@@ -207,8 +188,8 @@ impl<'a> System<'a> {
         self.braces.iter().for_each(|b| b.add_forces(x, forces));
     }
 
-    /// Assembles energy, forces and stiffness at `x`. `predicted` are the membrane stresses of the geometric stiffness,
-    /// if they are not those at `x` ([`Membrane::assemble`](crate::cloth::membrane::Membrane::assemble)).
+    /// `predicted` are the membrane stresses of the geometric stiffness, if not those at `x`
+    /// ([`Membrane::assemble`](crate::cloth::membrane::Membrane::assemble)).
     pub fn assemble(&mut self, x: &[V3], predicted: Option<&[Tensor]>) -> Assembled<'a> {
         let cloth = self.cloth;
         if let Some(c) = &mut self.self_contact {
@@ -258,7 +239,7 @@ impl<'a> System<'a> {
     /// Forces of stretching and contact at the end of a step `d` from `x`, in excess of those that the linear solve at
     /// `x` predicted. `start` is the system at `x`, without inertia.
     ///
-    /// The stiffness there is without the geometric part of stretching, and has the contacts at both ends of the step.
+    /// The stiffness is without the geometric part of stretching, and has the contacts at both ends of the step.
     /// Contacts that the step makes need their stiffness: with a force alone they would throw their vertices out by
     /// centimetres. Bending is left as predicted: it is linear, and the independent hinges of the linear solve are
     /// close enough to it.
@@ -285,8 +266,8 @@ impl<'a> System<'a> {
         Excess { forces, operator, foreseen }
     }
 
-    /// Bending as linear solves take it. It adds the entries along sides to the blocks of the membrane, and returns the
-    /// pairs coupled besides, with their entries, N/m. An exact solver takes the true stiffness of bending.
+    /// Adds the entries along sides to the blocks of the membrane, and returns the pairs coupled besides, with their
+    /// entries, N/m. An exact solver takes the true stiffness of bending.
     fn bending(&self, membrane: &mut [Block<f32x4>]) -> (&'a PairList, &'a [f64]) {
         let Bending { pairs, entries, tangent } = &self.cloth.bending;
         if self.linear.is_exact() {
@@ -296,20 +277,17 @@ impl<'a> System<'a> {
         (&tangent.pairs, &tangent.across)
     }
 
-    /// Greatest share of these displacements that the step assembled last may take before unknown pairs can meet.
-    #[must_use]
+    /// Share of these displacements that the step assembled last may take before unknown pairs can meet.
     pub fn free_share(&self, displacements: &[V3]) -> f64 {
         self.self_contact.as_ref().map_or(f64::INFINITY, |contact| contact.free_share(displacements))
     }
 
-    /// Adds the forces of walls and covers, N.
     fn add_walls(&self, x: &[V3], forces: &mut [V3]) {
         for Trespass { vertex, depth_m, back } in self.trespasses(x) {
             forces[vertex] += back * (WALL_STIFFNESS * self.cloth.areas[vertex] * depth_m);
         }
     }
 
-    /// Finds the vertices that are beyond a wall or outside the cover.
     fn trespasses(&self, x: &[V3]) -> impl Iterator<Item = Trespass> {
         let beyond = move |(v, p): (usize, &V3)| {
             let walls = self.walls.iter().filter_map(move |walls| walls.trespass(v, p));
@@ -321,7 +299,7 @@ impl<'a> System<'a> {
     }
 }
 
-/// Stiffness of the arcs at `x`; `None` where sides are chords.
+/// `None` where sides are chords.
 fn stiffness<'a>(cloth: &'a Cloth, x: &[V3], bowed: Bowed) -> Option<ArcStiffness<'a>> {
     let Membrane { arcs, pairs, sides, .. } = &cloth.membrane;
     let Bowed { bent, tensions, couplings } = bowed;
@@ -336,8 +314,6 @@ fn stiffness<'a>(cloth: &'a Cloth, x: &[V3], bowed: Bowed) -> Option<ArcStiffnes
     })
 }
 
-/// Root mean square length of the vectors.
-#[must_use]
 pub fn rms(vectors: &[V3]) -> f64 {
     (vectors.iter().map(V3::norm_squared).sum::<f64>() / vectors.len().max(1) as f64).sqrt()
 }

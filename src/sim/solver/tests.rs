@@ -15,7 +15,7 @@ use linalg::pcg::PcgParams;
 use nalgebra::Matrix3;
 use pattern::Garment;
 
-/// A rectangular piece as a garment without seams, its grain along v.
+/// One piece without seams, its grain along v.
 fn rectangle(columns: usize, rows: usize, step: f64) -> Garment {
     laboratory::garment(sheet(columns, rows, step))
 }

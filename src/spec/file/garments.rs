@@ -36,23 +36,18 @@ const GARMENT_KEYS: [&str; 15] = [
     "memory_limit_mb",
 ];
 
-/// Values that are common to all garments of a file.
 pub(super) struct Common<'a> {
-    /// Folder of the file.
     pub folder: &'a Path,
-    /// Fabrics that a garment may name.
     pub fabrics: &'a BTreeMap<String, Fabric>,
-    /// Styles that a garment may name.
     pub styles: &'a BTreeMap<String, KnownStyle>,
-    /// Edge length of the finest mesh, m, for garments that give none.
+    /// Edge length of the finest mesh, for garments that give none.
     pub edge_length_m: f64,
-    /// Parameters of the simulators; those of a garment replace them.
+    /// Those of a garment replace them.
     pub parameters: Parameters,
-    /// Limits of a simulation; those of a garment replace them.
+    /// Those of a garment replace them.
     pub limits: Limits,
 }
 
-/// Reads all garments with their fabrics and wearers.
 pub(super) fn garments(
     reader: &mut Reader<'_>,
     top: &Place<'_>,
@@ -149,7 +144,7 @@ fn told_apart(reader: &mut Reader<'_>, place: &Place<'_>, sizes: &[SizeFile], un
     }
 }
 
-/// Names of the sizes that a pattern holds; `None` where the pattern cannot be read.
+/// `None` where the pattern cannot be read.
 fn held_sizes(pattern: &SourceFile, unit: Option<Unit>) -> Option<Vec<String>> {
     if pattern.holds_seams() {
         return Some(vec![String::new()]);
@@ -187,7 +182,7 @@ fn in_catalogue(
     sewn
 }
 
-/// Names of the subjects who wear a garment: those that the garment names, or else all of the file.
+/// Subjects that the garment names, or else all of the file.
 fn wearers(reader: &mut Reader<'_>, garment: &Place<'_>, top: &Place<'_>, subjects: &[Subject]) -> Vec<String> {
     let Some(names) = reader.texts(garment, "subjects") else {
         return subjects.iter().map(|subject| subject.id.clone()).collect();

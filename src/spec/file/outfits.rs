@@ -32,7 +32,7 @@ pub(super) fn outfits(reader: &mut Reader<'_>, top: &Place<'_>, garments: &[Garm
     all
 }
 
-/// Garments of an outfit, the inmost first.
+/// Inmost first.
 fn layers<'k>(
     reader: &mut Reader<'_>,
     place: &Place<'_>,
@@ -95,7 +95,7 @@ fn known_sizes(layer: &GarmentEntry) -> String {
     layer.sizes.iter().map(|size| size.name.as_str()).collect::<Vec<_>>().join(", ")
 }
 
-/// Names of the subjects who wear an outfit: all who wear every layer, or those of them that the outfit names.
+/// All who wear every layer, or those of them that the outfit names.
 fn wearers(reader: &mut Reader<'_>, place: &Place<'_>, layers: &[&GarmentEntry]) -> Vec<String> {
     let first = layers.first().map_or(&[][..], |layer| &layer.subjects);
     let all: Vec<String> =

@@ -36,7 +36,7 @@ const STUDY_KEYS: [&str; 13] = [
     "memory_limit_mb",
 ];
 
-/// Reads the text of a study file. Paths in it begin at the file's folder.
+/// Paths in the text begin at the file's folder.
 pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec<Problem>> {
     let (mut reader, document) = open(path, text)?;
     reader.hidden.clone_from(&known.hidden);
@@ -124,7 +124,6 @@ fn sole<'t, T>(
     }
 }
 
-/// Reads the text of a file with the measurements of one subject.
 pub(super) fn measurements_file(path: &Path, text: &str) -> Result<Measurements, Vec<Problem>> {
     sole(path, text, "subject", |reader, place| {
         reader.only(&place, &[&["id"], &keys::<Measurements>()[..]].concat());
@@ -132,7 +131,6 @@ pub(super) fn measurements_file(path: &Path, text: &str) -> Result<Measurements,
     })
 }
 
-/// Reads the text of a file with one fabric.
 pub(super) fn fabric_file(path: &Path, text: &str) -> Result<Fabric, Vec<Problem>> {
     sole(path, text, "fabric", |reader, place| {
         own_fabric(reader, place, &mut BTreeSet::new()).map(|placed| placed.entry)
@@ -149,7 +147,6 @@ fn open<'t>(path: &'t Path, text: &'t str) -> Result<(Reader<'t>, Spanned<DeTabl
     if reader.problems.is_empty() { Ok((reader, document)) } else { Err(reader.problems) }
 }
 
-/// Name of the folder of a study.
 fn folder_name(folder: &Path) -> String {
     let full = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
     full.file_name().map_or_else(|| "study".into(), |name| name.to_string_lossy().into_owned())
@@ -200,14 +197,12 @@ fn fabrics(reader: &mut Reader<'_>, top: &Place<'_>, known: &BTreeMap<String, Fa
     fabrics
 }
 
-/// Reads the fabrics of the file.
 pub(super) fn own_fabrics(reader: &mut Reader<'_>, top: &Place<'_>) -> Vec<Placed<Fabric>> {
     let mut names = BTreeSet::new();
     let places = reader.tables(top, "fabric", "fabric");
     places.into_iter().filter_map(|place| own_fabric(reader, place, &mut names)).collect()
 }
 
-/// Reads one fabric, whose name must differ from those before it.
 fn own_fabric<'t>(
     reader: &mut Reader<'_>,
     mut place: Place<'t>,

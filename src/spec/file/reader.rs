@@ -24,7 +24,7 @@ pub(super) struct Reader<'a> {
 /// A table of the file, with a name for messages.
 #[derive(Clone)]
 pub(super) struct Place<'t> {
-    /// Name, such as `[fit]` or `subject ii`.
+    /// Name such as `[fit]` or `subject ii`.
     pub name: String,
     /// Span in the text, bytes.
     pub span: Range<usize>,
@@ -37,7 +37,6 @@ impl<'a> Reader<'a> {
         Self { path, text, ends, problems: Vec::new(), hidden: BTreeSet::new() }
     }
 
-    /// Adds a problem at a span of the text.
     pub fn problem(&mut self, span: &Range<usize>, message: impl Into<String>) {
         let column = self.before(span).rsplit(|&byte| byte == b'\n').next().map_or(1, |line| {
             1 + line.iter().filter(|&&byte| byte & 0xc0 != 0x80).count() // bytes that begin a character
@@ -51,12 +50,10 @@ impl<'a> Reader<'a> {
         1 + self.ends.partition_point(|end| *end < span.start)
     }
 
-    /// Adds file, line and name to an entry.
     pub fn placed<T>(&self, span: &Range<usize>, name: &str, entry: T) -> Placed<T> {
         Placed { file: self.path.to_owned(), line: self.line(span), name: name.to_owned(), entry }
     }
 
-    /// Text before a span.
     fn before(&self, span: &Range<usize>) -> &'a [u8] {
         &self.text.as_bytes()[..span.start.min(self.text.len())]
     }
@@ -67,7 +64,6 @@ impl<'a> Reader<'a> {
         if self.problems.is_empty() { Ok(read) } else { Err(self.problems) }
     }
 
-    /// Refuses keys that are not among the accepted ones.
     pub fn only(&mut self, place: &Place<'_>, accepted: &[&str]) {
         for key in place.table.keys() {
             let name = key.get_ref();
@@ -82,13 +78,11 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Reports a value of the wrong type.
     fn mistyped(&mut self, place: &Place<'_>, key: &str, value: &Spanned<DeValue<'_>>, wanted: &str) {
         let found = value.get_ref().type_str();
         self.problem(&value.span(), format!("{}: `{key}` must be {wanted}, found {found}", place.name));
     }
 
-    /// Reports a key that must be there.
     pub fn missing(&mut self, place: &Place<'_>, key: &str, wanted: &str) {
         self.problem(&place.span.clone(), format!("{}: `{key}` is missing; give {wanted}", place.name));
     }
@@ -103,7 +97,6 @@ impl<'a> Reader<'a> {
         Some(Spanned::new(value.span(), text))
     }
 
-    /// Required text.
     pub fn need_text<'t>(&mut self, place: &Place<'t>, key: &str, wanted: &str) -> Option<Spanned<&'t str>> {
         if !place.table.contains_key(key) {
             self.missing(place, key, wanted);
@@ -111,7 +104,6 @@ impl<'a> Reader<'a> {
         self.text(place, key)
     }
 
-    /// Optional number, which must be within a range.
     pub fn number(&mut self, place: &Place<'_>, key: &str, range: RangeInclusive<f64>) -> Option<f64> {
         self.checked(place, key, |number| {
             let accepted = || format!("`{key}` is {number}; accepted: {} to {}", range.start(), range.end());
@@ -119,7 +111,6 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Optional number, which `check` must accept.
     pub fn checked(
         &mut self,
         place: &Place<'_>,
@@ -157,7 +148,6 @@ impl<'a> Reader<'a> {
         tables
     }
 
-    /// Optional list of texts.
     pub fn texts<'t>(&mut self, place: &Place<'t>, key: &str) -> Option<Vec<Spanned<&'t str>>> {
         let value = place.table.get(key)?;
         let Some(list) = value.get_ref().as_array() else {

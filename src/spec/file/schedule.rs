@@ -7,14 +7,12 @@ use crate::file::reader::{Place, Reader};
 use crate::file::values::lookup;
 use crate::schedule::{Limits, Schedule};
 
-/// Greatest limit of time, s: thirty days.
+/// Thirty days.
 const LONGEST_S: f64 = 30.0 * 86_400.0;
-/// Accepted limits of memory, MB. A process does not even start in less than 50 MB.
+/// A process does not even start in less than 50 MB.
 const MEMORY_MB: std::ops::RangeInclusive<f64> = 50.0..=4e6;
-/// Accepted priorities.
 const PRIORITY: std::ops::RangeInclusive<f64> = -1000.0..=1000.0;
 
-/// Reads the limits of a table.
 pub(super) fn limits(reader: &mut Reader<'_>, place: &Place<'_>) -> Limits {
     Limits {
         time_s: reader.number(place, "time_limit_s", 0.001..=LONGEST_S),
@@ -22,7 +20,7 @@ pub(super) fn limits(reader: &mut Reader<'_>, place: &Place<'_>) -> Limits {
     }
 }
 
-/// Reads the schedule of a garment. A garment waits only for garments before it in the file, so that no circle arises.
+/// A garment waits only for garments before it in the file, so that no circle arises.
 pub(super) fn schedule(
     reader: &mut Reader<'_>,
     place: &Place<'_>,

@@ -16,7 +16,6 @@ use store::files::SourceFile;
 /// End of a message where a subject may name an entry of the catalogue instead.
 const OR_NAMED: &str = ", or name a catalogue entry with `like`";
 
-/// Reads every `[[subject]]` table.
 pub(super) fn subjects(
     reader: &mut Reader<'_>,
     top: &Place<'_>,
@@ -67,7 +66,6 @@ pub(super) fn subjects(
     subjects
 }
 
-/// The person with the figures that a subject names.
 fn figured(reader: &mut Reader<'_>, place: &Place<'_>, person: Person, texts: &[Spanned<&str>]) -> Person {
     let Some(first) = texts.first() else { return person };
     if person.scan.is_some() {
@@ -86,7 +84,6 @@ fn figured(reader: &mut Reader<'_>, place: &Place<'_>, person: Person, texts: &[
     }
 }
 
-/// Reads the poses that a subject names.
 fn poses(reader: &mut Reader<'_>, place: &Place<'_>) -> Vec<Pose> {
     let names = reader.texts(place, "poses").unwrap_or_default();
     names.iter().filter_map(|name| pose(reader, place, name)).collect()
@@ -119,7 +116,6 @@ fn alone(reader: &mut Reader<'_>, place: &Place<'_>, accepted: &[&str]) {
     }
 }
 
-/// Reads a person from a scan beside the study file.
 fn scanned(reader: &mut Reader<'_>, place: &Place<'_>, file: &Spanned<&str>, folder: &Path) -> Option<Person> {
     let sex = reader.text(place, "sex").and_then(|word| sex_of(reader, place, &word));
     let unit = reader.text(place, "unit").and_then(|text| {
@@ -135,7 +131,7 @@ fn scanned(reader: &mut Reader<'_>, place: &Place<'_>, file: &Spanned<&str>, fol
     scan.read(sex).map(|read| read.person).map_err(problem).ok()
 }
 
-/// Reads measurements from the keys of a table. `or` ends the message about a missing sex.
+/// `or` ends the message about a missing sex.
 pub(super) fn measurements(reader: &mut Reader<'_>, place: &Place<'_>, or: &str) -> Option<Measurements> {
     let word = reader.need_text(place, "sex", &format!("\"male\" or \"female\"{or}"));
     let sex = word.and_then(|word| sex_of(reader, place, &word));

@@ -18,12 +18,10 @@ use fit::target::is_rigid;
 use geom::units::from_mm;
 use sim::Fabric;
 
-/// Accepted edge lengths of a mesh, mm.
 pub(super) const EDGE_MM: std::ops::RangeInclusive<f64> = 2.0..=100.0;
 /// Greatest number of garments that a sweep may make of one garment.
 const MOST: usize = 10_000;
 
-/// One value of a swept quantity.
 #[derive(Clone)]
 enum Setting {
     Fabric(Fabric),
@@ -38,7 +36,6 @@ struct Axis {
     settings: Vec<(String, Setting)>,
 }
 
-/// Reads the values of a `[parameters]` table.
 pub(super) fn parameters(reader: &mut Reader<'_>, place: &Place<'_>) -> Parameters {
     let mut parameters = Parameters::default();
     let Some(value) = place.table.get("parameters") else { return parameters };
@@ -85,7 +82,7 @@ pub(super) fn swept(
     garments.into_iter().flat_map(|garment| made.remove(&garment.name).unwrap_or_else(|| vec![garment])).collect()
 }
 
-/// Names of the garments of a sweep: those that it lists, or all.
+/// Garments that the sweep lists, or all.
 fn chosen(reader: &mut Reader<'_>, place: &Place<'_>, garments: &[GarmentEntry]) -> Vec<String> {
     let known: BTreeMap<String, ()> = garments.iter().map(|garment| (garment.name.clone(), ())).collect();
     match reader.texts(place, "garments") {
@@ -97,7 +94,7 @@ fn chosen(reader: &mut Reader<'_>, place: &Place<'_>, garments: &[GarmentEntry])
     }
 }
 
-/// Every combination of the axes, where the last axis changes fastest.
+/// Every combination of the axes; the last axis changes fastest.
 fn variants(garment: &GarmentEntry, axes: &[Axis]) -> Vec<GarmentEntry> {
     let mut all = vec![garment.clone()];
     for axis in axes {
@@ -133,7 +130,6 @@ fn apply(variant: &mut GarmentEntry, setting: &Setting, short: &str, text: &str)
     variant.target.is_rigid = is_rigid(variant.fabric.membrane_weft_n_m);
 }
 
-/// Reads the lists of values of a sweep, by the names of their quantities.
 fn axes(reader: &mut Reader<'_>, place: &Place<'_>, fabrics: &BTreeMap<String, Fabric>) -> Vec<Axis> {
     let mut axes = Vec::new();
     for (name, value) in leaves("", place.table).into_iter().filter(|(name, _)| name != "garments") {
@@ -162,7 +158,6 @@ fn axes(reader: &mut Reader<'_>, place: &Place<'_>, fabrics: &BTreeMap<String, F
     axes
 }
 
-/// Reads one value of a list.
 fn setting(name: &str, item: &Spanned<DeValue<'_>>, fabrics: &BTreeMap<String, Fabric>) -> Result<Setting, String> {
     let value = json(item.get_ref());
     let number = || value.as_f64().ok_or_else(|| format!("`{name}` is {value}; accepted: a number"));
@@ -209,7 +204,7 @@ fn leaves<'t>(prefix: &str, table: &'t DeTable<'t>) -> Vec<(String, &'t Spanned<
     found
 }
 
-/// Converts a TOML value to JSON; a number that its type cannot hold becomes null.
+/// A number that its type cannot hold becomes null.
 fn json(value: &DeValue<'_>) -> Json {
     match value {
         DeValue::Integer(digits) => i64::from_str_radix(digits.as_str(), digits.radix()).map_or(Json::Null, Json::from),

@@ -10,7 +10,7 @@ use geom::units::from_mm;
 /// Accepted eases, mm.
 const EASE_MM: std::ops::RangeInclusive<f64> = -500.0..=1000.0;
 
-/// Reads the intended ease of a garment; a regular fit where it names none.
+/// Regular fit where the garment names none.
 pub(super) fn target(reader: &mut Reader<'_>, place: &Place<'_>) -> Target {
     let mut target = Target::default();
     if let Some(name) = reader.text(place, "intended_fit") {
@@ -59,7 +59,7 @@ fn own(reader: &mut Reader<'_>, place: &Place<'_>, table: &DeTable<'_>, target: 
     }
 }
 
-/// Reads the least and the greatest ease, mm.
+/// Least and greatest ease, mm.
 fn band(value: &Spanned<DeValue<'_>>) -> Option<[f64; 2]> {
     let number = |item: &Spanned<DeValue<'_>>| match item.get_ref() {
         DeValue::Integer(digits) => i64::from_str_radix(digits.as_str(), digits.radix()).ok().map(|n| n as f64),

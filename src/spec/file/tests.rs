@@ -28,7 +28,6 @@ fn known() -> Known {
     }
 }
 
-/// Writes a study into a folder with its two input files and loads it.
 fn load(text: &str) -> std::result::Result<Study, String> {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("tee-s.dxf"), "dxf").expect("writable");

@@ -10,7 +10,7 @@ use crate::file::reader::{Place, Reader};
 use store::files::SourceFile;
 use store::{StudyError, hidden_hint, nearest};
 
-/// Reads the numbers of an entry into a blank entry; `None` where a number is wrong or missing, which is reported.
+/// `None` where a number is wrong or missing, which is reported.
 pub(super) fn numbers<T: Entry>(reader: &mut Reader<'_>, place: &Place<'_>, mut entry: T, wanted: &str) -> Option<T> {
     let before = reader.problems.len();
     for field in T::fields() {
@@ -36,7 +36,6 @@ pub(super) fn numbers<T: Entry>(reader: &mut Reader<'_>, place: &Place<'_>, mut 
     (reader.problems.len() == before).then_some(entry)
 }
 
-/// Refuses a second entry of the same name.
 pub(super) fn unique<'t>(reader: &mut Reader<'_>, names: &mut BTreeSet<&'t str>, name: &Spanned<&'t str>, what: &str) {
     if !names.insert(name.get_ref()) {
         reader.problem(&name.span(), format!("{what} `{}` is there twice; names must differ", name.get_ref()));
@@ -64,7 +63,7 @@ pub(super) fn lookup<'k, T>(
     found
 }
 
-/// Reads a file beside the study file; reports a file that cannot be read, with a suggestion.
+/// Reads a file beside the study file. Reports one that cannot be read, with a suggestion.
 pub(super) fn source(
     reader: &mut Reader<'_>,
     place: &Place<'_>,
@@ -86,7 +85,6 @@ pub(super) fn source(
     }
 }
 
-/// Names of the files in a folder, sorted.
 fn file_names(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let mut names: Vec<String> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();

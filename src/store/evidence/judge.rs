@@ -27,7 +27,6 @@ const PAIRS: &str = "
 
 const CELLS: &str = "SELECT DISTINCT garment, fit_class FROM v_ease WHERE study = :study AND decides ORDER BY 1, 2";
 
-/// Evidence of a study, with the basis that it was judged from.
 struct Judged {
     evidence: Evidence,
     basis: Basis,
@@ -40,8 +39,8 @@ struct Basis {
     checksum: f64,
 }
 
-/// Judges the results of a study where they changed since the last time, and stores the evidence. Other connections may
-/// write meanwhile; the view hides evidence whose basis is not that of the present results.
+/// Judges the results of a study where they changed since the last time. Other connections may write meanwhile; the
+/// view hides evidence whose basis is not that of the present results.
 pub fn update(connection: &mut Connection, study: &str) -> Result<()> {
     let reading = connection.transaction()?;
     let judged = if is_judged(&reading, study)? { None } else { Some(judge(&reading, study)?) };
@@ -49,7 +48,6 @@ pub fn update(connection: &mut Connection, study: &str) -> Result<()> {
     judged.map_or(Ok(()), |judged| lightly(connection, |transaction| keep(transaction, study, &judged)))
 }
 
-/// Judges the results of a study and stores the evidence.
 pub fn refresh(connection: &Connection, study: &str) -> Result<()> {
     keep(connection, study, &judge(connection, study)?)
 }
@@ -63,7 +61,6 @@ fn is_judged(connection: &Connection, study: &str) -> Result<bool> {
     Ok(kept == cells(connection, study)?.len() as i64)
 }
 
-/// Returns the basis that the evidence of a study is judged from.
 fn basis(connection: &Connection, study: &str) -> Result<Basis> {
     let sql = "SELECT count(*), total(d_ei) + total(ease_mm) FROM v_pair WHERE study = ?";
     Ok(connection

@@ -14,27 +14,18 @@ pub use judge::{refresh, update};
 /// Name of the study that stands for the printed tables of the thesis.
 pub const PUBLISHED: &str = "thesis-published";
 
-/// Evidence from the present results of a study, with an answer for every garment and fit class.
-///
-/// # Errors
-/// When the database cannot be read.
+/// Evidence from the present results, with an answer for every garment and fit class.
 pub fn evidence(store: &Store, study: &str) -> Result<Evidence> {
     let cells = if study == PUBLISHED { cells_of(&pairs(store, study)?) } else { cells(&store.reader, study)? };
     Ok(fit::judge(&cells, &pairs(store, study)?))
 }
 
-/// The cases of a study that both simulators have draped.
-///
-/// # Errors
-/// When the database cannot be read.
+/// Cases that both simulators have draped.
 pub fn pairs(store: &Store, study: &str) -> Result<Vec<Pair>> {
     if study == PUBLISHED { published::pairs(&store.reader) } else { stored_pairs(&store.reader, study) }
 }
 
-/// Ease at which both simulators have the same EI, for one garment of a study or for all together, in words.
-///
-/// # Errors
-/// When the database cannot be read.
+/// Ease at which both simulators have the same EI, in words; for all garments together where `garment` is `None`.
 pub fn crossover_words(store: &Store, study: &str, garment: Option<&str>) -> Result<String> {
     let pairs = pairs(store, study)?;
     let chosen: Vec<&Pair> = pairs.iter().filter(|pair| garment.is_none_or(|name| name == pair.garment)).collect();
@@ -43,14 +34,10 @@ pub fn crossover_words(store: &Store, study: &str, garment: Option<&str>) -> Res
 
 /// Judges the results of a study again and stores the evidence for `v_recommendation`. Does nothing in a read-only
 /// store.
-///
-/// # Errors
-/// When the database cannot be read or written.
 pub fn update_evidence(store: &mut Store, study: &str) -> Result<()> {
     store.writer.as_mut().map_or(Ok(()), |writer| update(writer, study))
 }
 
-/// The garments and fit classes that pairs have.
 fn cells_of(pairs: &[Pair]) -> Vec<Cell> {
     let mut cells: Vec<Cell> = Vec::new();
     for pair in pairs {

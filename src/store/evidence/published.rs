@@ -28,7 +28,7 @@ const FREE_EDGES: [&str; 3] = ["Hem", "Sleeve Opening", "Neck Opening"];
 /// Measurement that Hybrid-GS's pop-up step sets to its pattern length by construction [T 5.4].
 const CONTROLLED: &str = "Hem";
 
-/// Returns all 54 cases of the thesis.
+/// All 54 cases of the thesis.
 pub fn pairs(connection: &Connection) -> Result<Vec<Pair>> {
     let mut statement = connection.prepare_cached(ROWS)?;
     let mut rows = statement.query([])?;
@@ -48,7 +48,6 @@ pub fn pairs(connection: &Connection) -> Result<Vec<Pair>> {
     Ok(pairs)
 }
 
-/// Adds a measurement of one simulator to its case.
 fn add(pair: &mut Pair, row: &Row<'_>) -> Result<()> {
     let (no, name, error): (u32, String, f64) = (row.get(5)?, row.get(6)?, row.get(7)?);
     if pair.errors.last().is_none_or(|last| last.no != no) {

@@ -20,7 +20,6 @@ use crate::widgets::jump::Goal;
 const FRAME_LINES: u16 = 8;
 
 impl App {
-    /// Carries out an action. Returns the effects that it asks for.
     pub fn act(&mut self, action: Action) -> Vec<Effect> {
         let Self { state, screens } = self;
         if let Some(effects) = screens.act(state, action) {
@@ -79,7 +78,7 @@ impl App {
         List::of(self.state.setup.bindings, keys_of(self))
     }
 
-    /// Shows a step of the tour; a step after the last ends the tour.
+    /// Shows a step of the tour; one after the last ends it.
     pub fn tour(&mut self, step: usize) {
         let state = &mut self.state;
         if state.is_first_start() {
@@ -90,7 +89,6 @@ impl App {
         state.overlay = Some(Overlay::Tour(tour));
     }
 
-    /// Puts letters on the things on the screen, for a jump.
     fn offer_jumps(&mut self) {
         let Self { state, screens } = self;
         let targets = screens.page(state.nav.screen).targets(state, state.body());
@@ -100,7 +98,6 @@ impl App {
         }
     }
 
-    /// Goes to a place on the screen.
     pub fn jump(&mut self, goal: Goal) {
         let Self { state, screens } = self;
         let page = screens.page_mut(state.nav.screen);
@@ -114,7 +111,6 @@ impl App {
         }
     }
 
-    /// Goes to a thing of the catalogue or a study, by name.
     pub fn look_at(&mut self, thing: Thing) {
         let Self { state, screens } = self;
         state.show(thing.screen());
@@ -145,8 +141,7 @@ impl App {
         state.copy(name, text)
     }
 
-    /// Undoes the first of these that there is: filter, enlargement, change of screen. Returns false where there is
-    /// none.
+    /// Undoes the first that there is of filter, enlargement and change of screen. Returns false where there is none.
     fn back(&mut self) -> bool {
         let Self { state, screens } = self;
         let filter = &mut state.nav.filters[state.nav.screen as usize];
@@ -183,7 +178,6 @@ impl App {
     }
 }
 
-/// Movement that an action stands for, if any.
 fn movement(state: &State, action: Action) -> Option<Movement> {
     let page = (state.terminal.size.height.saturating_sub(FRAME_LINES).max(2) / 2) as isize;
     Some(match action {

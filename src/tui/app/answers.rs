@@ -57,7 +57,7 @@ impl App {
         Some(Ending { study: study.name.clone(), ran, inside, as_before: 0 }.to_string())
     }
 
-    /// Closes the form whose entry was saved; a refusal is shown in the form instead.
+    /// Closes the form; a refusal is shown in it instead.
     pub fn saved(&mut self, outcome: Result<String, String>) {
         let Self { state, screens } = self;
         let awaited = state.told.awaited.take();
@@ -91,7 +91,6 @@ impl App {
         }
     }
 
-    /// Handles a text from the user's editor.
     pub fn written(&mut self, writing: Writing, text: Result<String, String>) -> Vec<Effect> {
         let Self { state, screens } = self;
         match (writing, text) {
@@ -103,7 +102,6 @@ impl App {
         vec![]
     }
 
-    /// Handles the end of the run that was started here.
     pub fn run_ended(&mut self, outcome: Result<String, String>) -> Vec<Effect> {
         (self.state.running.target, self.state.running.is_settling) = (None, true);
         let (Ok(text) | Err(text)) = &outcome;

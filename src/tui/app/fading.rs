@@ -10,12 +10,11 @@ const LEAST: Duration = Duration::from_secs(4);
 /// Time for each letter: 238 words of six letters a minute, as adults read silently (Brysbaert 2019).
 const LETTER: Duration = Duration::from_millis(42);
 
-/// The message in the status line, and the time since which it is there.
+/// Message in the status line, and the time since which it is there.
 #[derive(Debug, Default)]
 pub struct Fading(Option<(Notice, Instant)>);
 
 impl Fading {
-    /// Follows the message in the status line.
     pub fn follow(&mut self, notice: Option<&Notice>, now: Instant) {
         if self.0.as_ref().map(|(known, _)| known) != notice {
             self.0 = notice.map(|notice| (notice.clone(), now));
@@ -23,15 +22,12 @@ impl Fading {
     }
 
     /// Time until the message fades; `None` where none does.
-    #[must_use]
     pub fn left(&self, now: Instant) -> Option<Duration> {
         let (notice, since) = self.0.as_ref().filter(|(notice, _)| !notice.is_error)?;
         let stays = LEAST + LETTER * notice.text.chars().count() as u32;
         Some((*since + stays).saturating_duration_since(now))
     }
 
-    /// True if the message has been there for long enough.
-    #[must_use]
     pub fn is_over(&self, now: Instant) -> bool {
         self.left(now).is_some_and(|left| left.is_zero())
     }

@@ -24,7 +24,6 @@ const SHORT: u16 = 66;
 /// Fewest columns for the name of the study, if it has as many.
 const LEAST_NAME: usize = 8;
 
-/// Draws tabs, body, status line, and the overlay above them.
 pub fn draw(frame: &mut Frame<'_>, app: &App) {
     let App { state, screens } = app;
     let [top, body, bottom] = rows(frame.area());
@@ -52,7 +51,6 @@ fn is_start_shown(app: &App) -> bool {
 }
 
 /// Screen whose keys apply. Without a study those of Study apply on all screens that need one.
-#[must_use]
 pub fn keys_of(app: &App) -> Screen {
     if is_start_shown(app) { Screen::Study } else { app.state.nav.screen }
 }
@@ -81,8 +79,6 @@ fn tab_texts(state: &State, width: u16) -> Vec<(Screen, String)> {
     if columns + told < usize::from(width) { loose } else { texts("") }
 }
 
-/// Screen whose tab is at a column of the terminal.
-#[must_use]
 pub fn tab_at(state: &State, column: u16) -> Option<Screen> {
     let mut end = 0;
     tab_texts(state, state.terminal.size.width).into_iter().find_map(|(screen, text)| {
@@ -214,7 +210,6 @@ fn status_line(app: &App, width: u16) -> Line<'static> {
     Line::from(spans)
 }
 
-/// Line of keys with their meanings.
 fn hint_line(hints: &[(&'static str, &'static str)], theme: Theme) -> Line<'static> {
     let spans = hints
         .iter()

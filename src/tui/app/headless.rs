@@ -42,10 +42,6 @@ pub struct Headless {
 }
 
 impl Headless {
-    /// Opens a database and reads the data of the first screen.
-    ///
-    /// # Errors
-    /// When the database cannot be read.
     pub fn new(database: &Path, width: u16, height: u16) -> Result<Self> {
         let store = catalogue::open(database, true)?;
         let abilities = Abilities { run: false, pictures: false };
@@ -61,23 +57,19 @@ impl Headless {
         Ok(headless)
     }
 
-    /// Reads the data of all screens.
-    ///
-    /// # Errors
-    /// When the database cannot be read.
     pub fn read(&mut self) -> Result<()> {
         let data = reading::snapshot(&self.store, &self.app.state.focus)?;
         self.app.update(Message::Data(Box::new(data)));
         Ok(())
     }
 
-    /// Presses a key. Returns true if the key asks for data to be read.
+    /// Returns true if the key asks for data to be read.
     pub fn press(&mut self, code: KeyCode) -> bool {
         let effects = self.app.update(Message::Key(KeyEvent::new(code, KeyModifiers::NONE)));
         effects.iter().any(|effect| matches!(effect, Effect::Read(_)))
     }
 
-    /// Draws the screen. Returns the number of bytes in the first frame for a terminal.
+    /// Returns the number of bytes in the first frame for a terminal.
     pub fn draw(&mut self) -> usize {
         let Self { terminal, app, sent, .. } = self;
         // Drawing to memory does not fail.

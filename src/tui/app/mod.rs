@@ -14,17 +14,12 @@ use crate::screens::Screens;
 use crate::screens::state::{Abilities, State};
 use crate::widgets::theme::Theme;
 
-/// The workbench: its screens, and the state that they share.
 pub struct App {
-    /// State that the screens share.
     pub state: State,
-    /// Screens, each with its own state.
     pub screens: Screens,
 }
 
 impl App {
-    /// Makes a workbench that has read nothing yet.
-    #[must_use]
     pub fn new(theme: Theme, abilities: Abilities, size: Size) -> Self {
         Self { state: State::new(theme, abilities, size), screens: Screens::default() }
     }

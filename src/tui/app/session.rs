@@ -46,8 +46,6 @@ pub struct Session {
 }
 
 impl Session {
-    /// Takes the session from a workbench.
-    #[must_use]
     pub fn of(app: &App) -> Self {
         let App { state, screens } = app;
         Self {
@@ -75,7 +73,7 @@ impl Session {
         }
     }
 
-    /// Restores the session in a new workbench, except `ascii` and the mouse where the environment sets them.
+    /// Leaves `ascii` and the mouse alone where the environment sets them.
     pub fn restore(self, app: &mut App) {
         let App { state, screens } = app;
         state.nav.screen = Screen::ALL.get(self.screen).copied().unwrap_or(Screen::Study);
@@ -104,13 +102,12 @@ impl Session {
         screens.sql.history = self.history;
     }
 
-    /// Reads a session; an empty one where there is no readable file.
-    #[must_use]
+    /// Returns an empty session where there is no readable file.
     pub fn read(path: &Path) -> Self {
         std::fs::read(path).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok()).unwrap_or_default()
     }
 
-    /// Writes the session to a file. Errors are ignored: only a convenience is lost.
+    /// Ignores errors: only a convenience is lost.
     pub fn write(&self, path: &Path) {
         let Some(folder) = path.parent() else { return };
         let Ok(bytes) = serde_json::to_vec_pretty(self) else { return };
@@ -131,30 +128,24 @@ pub struct Keeper {
 }
 
 impl Keeper {
-    /// A keeper of the session in a file, as it is there; `None` keeps nothing.
-    #[must_use]
+    /// Makes a keeper that knows the session in the file; without a path it keeps nothing.
     pub fn new(path: Option<PathBuf>, written: Session) -> Self {
         Self { path, written, due: None }
     }
 
-    /// Folder of the session's file.
-    #[must_use]
     pub fn folder(&self) -> Option<&Path> {
         self.path.as_deref()?.parent()
     }
 
-    /// Notes that the user did something.
     pub fn touch(&mut self) {
         self.due.get_or_insert_with(|| Instant::now() + REST);
     }
 
     /// Time until the session is to be written; `None` where it need not be.
-    #[must_use]
     pub fn left(&self) -> Option<Duration> {
         self.due.map(|due| due.saturating_duration_since(Instant::now()))
     }
 
-    /// Writes the session if that is due.
     pub fn keep_in_time(&mut self, app: &App) {
         if self.left().is_some_and(|left| left.is_zero()) {
             self.keep(app);
@@ -173,7 +164,6 @@ impl Keeper {
 }
 
 /// Path of the session of a database: in `toile` of the state folder.
-#[must_use]
 pub fn path(database: &Path, env: &Env<'_>) -> Option<PathBuf> {
     let set = |name: &str| env(name).filter(|value| !value.is_empty()).map(PathBuf::from);
     let folder = set("XDG_STATE_HOME").or_else(|| set("HOME").map(|home| home.join(".local").join("state")))?;

@@ -23,7 +23,6 @@ use crate::screens::study::actions::study_created;
 use crate::widgets::jump::hit;
 
 impl App {
-    /// Handles a message. Returns the effects that it asks for.
     pub fn update(&mut self, message: Message) -> Vec<Effect> {
         let (before, screen) = (self.state.focus.clone(), self.state.nav.screen);
         let filter = self.state.nav.filters[Screen::Sql as usize].clone();
@@ -188,7 +187,6 @@ impl App {
         state.place = place.unwrap_or(state.place);
     }
 
-    /// Moves the selection to a row that passes the filter.
     fn keep_selection_visible(&mut self) {
         let Self { state, screens } = self;
         screens.jobs.arrange(state);

@@ -7,7 +7,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use crate::keys::action::Action;
 use crate::keys::screen::Screen;
 
-/// A key with its modifiers. Shift is part of a letter, not a modifier.
+/// Key with its modifiers. Shift is part of a letter, not a modifier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Key {
     code: KeyCode,
@@ -16,20 +16,14 @@ pub struct Key {
 }
 
 impl Key {
-    /// A key, with Ctrl or without.
-    #[must_use]
     pub const fn new(code: KeyCode, ctrl: bool) -> Self {
         Self { code, ctrl, alt: false }
     }
 
-    /// A key with Alt.
-    #[must_use]
     pub const fn alt(code: KeyCode) -> Self {
         Self { code, ctrl: false, alt: true }
     }
 
-    /// The key of an event.
-    #[must_use]
     pub fn of(event: &KeyEvent) -> Self {
         let is = |modifier| event.modifiers.contains(modifier);
         Self { code: event.code, ctrl: is(KeyModifiers::CONTROL), alt: is(KeyModifiers::ALT) }
@@ -60,38 +54,30 @@ impl fmt::Display for Key {
     }
 }
 
-/// One row of the table of keys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Binding {
-    /// Action of the keys.
     pub action: Action,
-    /// Name of the action in the palette.
+    /// Name in the palette.
     pub name: &'static str,
-    /// Keys for the action.
     pub keys: &'static [Key],
-    /// Screens on which the keys apply; empty for all screens.
+    /// Screens on which the keys apply; empty for all.
     pub screens: &'static [Screen],
     /// Word in the status line; empty for an action that is not shown there.
     pub hint: &'static str,
-    /// Description of the action.
     pub help: &'static str,
 }
 
 impl Binding {
-    /// True if the binding applies on a screen.
-    #[must_use]
     pub fn is_on(&self, screen: Screen) -> bool {
         self.screens.is_empty() || self.screens.contains(&screen)
     }
 
     /// The keys, as help shows them.
-    #[must_use]
     pub fn keys_text(&self) -> String {
         self.keys.iter().map(Key::to_string).collect::<Vec<_>>().join(" ")
     }
 
-    /// True if name, keys or help contain a text, in upper or lower case.
-    #[must_use]
+    /// Searches name, keys and help, in upper or lower case.
     pub fn matches(&self, text: &str) -> bool {
         let text = text.to_lowercase();
         self.name.contains(&text)
@@ -100,14 +86,11 @@ impl Binding {
     }
 }
 
-/// Action of a key on a screen, if any.
-#[must_use]
 pub fn action_of(bindings: &[Binding], key: Key, screen: Screen) -> Option<Action> {
     bindings.iter().find(|binding| binding.is_on(screen) && binding.keys.contains(&key)).map(|binding| binding.action)
 }
 
 /// Bindings whose name, keys or help contain a text; those whose names begin with it come first.
-#[must_use]
 pub fn search(bindings: &'static [Binding], text: &str) -> Vec<&'static Binding> {
     let text = text.trim().to_lowercase();
     let mut found: Vec<&Binding> = bindings.iter().filter(|binding| binding.matches(&text)).collect();

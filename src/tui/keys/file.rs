@@ -36,7 +36,7 @@ const NAMES: [(&str, KeyCode); 15] = [
     ("Delete", KeyCode::Delete),
 ];
 
-/// Name of the file in the config folder.
+/// Name in the config folder.
 pub const FILE: &str = "keys.toml";
 
 /// Name of the entry with the style of editing.
@@ -45,12 +45,9 @@ const EDITING: &str = "editing";
 /// Letters that terminals, tmux and screen use together with Ctrl.
 const TAKEN: &str = "absqhijm";
 
-/// Keys of actions, and style of editing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Keys {
-    /// Table of keys.
     pub bindings: &'static [Binding],
-    /// Style of editing.
     pub editing: Editing,
 }
 
@@ -61,14 +58,10 @@ impl Default for Keys {
 }
 
 /// Reads the keys of a file, which replace those of the built-in table. The table lives as long as the program.
-///
-/// # Errors
-/// All problems of the file, each with its line.
 pub fn read(path: Option<&Path>) -> Result<Keys, ConfigError> {
     config::read(path, taken)
 }
 
-/// Replaces keys of the built-in table by those of some entries.
 fn taken(entries: &[Entry<'_>], problems: &mut Problems) -> Keys {
     let mut editing = Editing::default();
     let mut bindings = BINDINGS.to_vec();
@@ -95,7 +88,6 @@ fn taken(entries: &[Entry<'_>], problems: &mut Problems) -> Keys {
     Keys { bindings: bindings.leak(), editing }
 }
 
-/// Reads the style of editing from a value.
 fn editing_of(value: &DeValue<'_>) -> Result<Editing, String> {
     const ACCEPTED: &str = "accepted: \"readline\", \"vim\"";
     match value.as_str() {
@@ -119,7 +111,7 @@ fn clash(bindings: &[Binding], k: usize) -> Option<String> {
     Some(format!("{}: key `{key}` already means {other}; give that one another key too", own.name))
 }
 
-/// Reads one key or a list of keys from a value.
+/// Reads one key or a list of keys.
 fn keys(value: &DeValue<'_>) -> Result<Vec<Key>, String> {
     let wanted = "accepted: a key in quotes, or a list of keys";
     let key_of = |value: &DeValue<'_>| key(value.as_str().ok_or_else(|| format!("{}; {wanted}", value.type_str()))?);
@@ -130,7 +122,6 @@ fn keys(value: &DeValue<'_>) -> Result<Vec<Key>, String> {
     }
 }
 
-/// Reads a key from its name.
 fn key(name: &str) -> Result<Key, String> {
     let single = |text: &str| {
         let mut letters = text.chars();

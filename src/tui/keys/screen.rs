@@ -3,30 +3,23 @@
 /// A screen of the workbench. Its number is its key; 0 is the key of the tenth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Screen {
-    /// Study as a grid of sizes by subjects.
+    /// Grid of sizes by subjects.
     Study,
-    /// Subjects of the catalogue.
     Subjects,
     /// Styles and sizes of the catalogue, and the seams of one size.
     Styles,
-    /// Jobs of the study in the queue.
     Jobs,
     /// One result: its measurements and its picture.
     Results,
-    /// Several results side by side.
     Compare,
-    /// Queries in SQL.
     Sql,
-    /// Reports in the project's folder.
     Reports,
-    /// Fabrics of the catalogue.
     Fabrics,
     /// Fit of a garment on a subject, size by size.
     Fit,
 }
 
 impl Screen {
-    /// All screens, in order of their numbers.
     pub const ALL: [Self; 10] = [
         Self::Study,
         Self::Subjects,
@@ -40,14 +33,11 @@ impl Screen {
         Self::Fit,
     ];
 
-    /// Number of the screen, which is its key.
-    #[must_use]
     pub fn number(self) -> usize {
         (self as usize + 1) % Self::ALL.len()
     }
 
     /// Name, and a short name for narrow tabs.
-    #[must_use]
     pub fn names(self) -> [&'static str; 2] {
         match self {
             Self::Study => ["Study", "Stu"],

@@ -38,7 +38,6 @@ const MARKED: &[Screen] = &[Study, Jobs, Results, Subjects, Fabrics];
 const LISTED: &[Screen] = &[Study, Jobs, Subjects, Fabrics];
 const UNMARKED: &[Screen] = &[Study, Jobs, Results, Compare, Subjects, Fabrics];
 
-/// Screens with lists that can be sorted.
 const SORTED: &[Screen] = &[Study, Subjects, Fabrics, Jobs, Results, Compare, Sql, Reports];
 
 /// The built-in table of keys, which a file may change (`keys`). It does not use Ctrl-A, B, S, Q, H, I, J and M, which

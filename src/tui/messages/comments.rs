@@ -39,7 +39,6 @@ pub struct Change {
 
 impl Change {
     /// A change of a comment that can be taken back.
-    #[must_use]
     pub fn of(comment: &Comment, edit: Edit) -> Self {
         Self { number: comment.number, before: Some(edit.before(comment)), edit }
     }

@@ -40,7 +40,6 @@ pub enum Command {
 
 impl Command {
     /// True if a form waits for the outcome.
-    #[must_use]
     pub fn is_from_form(&self) -> bool {
         matches!(self, Self::Save(..) | Self::Import(..) | Self::ImportStyle(..) | Self::Comment(..))
     }

@@ -56,7 +56,6 @@ pub struct PreviewRequest {
 impl PreviewRequest {
     /// True if this request would look the same for a size, a subject and a fabric. Saving the seams does not change
     /// that.
-    #[must_use]
     pub fn is_of(&self, size: &LayoutRequest, subject: SubjectId, fabric: Option<&String>) -> bool {
         let LayoutRequest { style, key, seams, .. } = &self.size;
         (style, key.size, seams) == (&size.style, size.key.size, &size.seams)

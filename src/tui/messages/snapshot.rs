@@ -85,43 +85,36 @@ pub struct Snapshot {
 
 impl Snapshot {
     /// Shown study; `None` for a database without studies.
-    #[must_use]
     pub fn study(&self) -> Option<&StudyRow> {
         self.studies.get(self.study)
     }
 
     /// A job by its number.
-    #[must_use]
     pub fn job(&self, id: JobId) -> Option<&JobRow> {
         self.jobs.iter().find(|job| job.id == id)
     }
 
     /// Jobs by their numbers, without those that are gone.
-    #[must_use]
     pub fn jobs_of<'i>(&self, ids: impl Iterator<Item = &'i JobId>) -> Vec<&JobRow> {
         ids.filter_map(|id| self.job(*id)).collect()
     }
 
     /// Shown grid; `None` where it has no size or no subject.
-    #[must_use]
     pub fn grid(&self) -> Option<&Grid> {
         self.grid.as_ref().filter(|grid| !grid.sizes.is_empty() && !grid.subjects.is_empty())
     }
 
     /// Cell at a place of the grid.
-    #[must_use]
     pub fn cell_at(&self, place: Place) -> Option<&Cell> {
         self.grid()?.cells.get(place.size)?.get(place.subject)?.get(place.simulator)
     }
 
     /// Fit at a place of the grid; `None` where the ease is not known.
-    #[must_use]
     pub fn fit_at(&self, place: Place) -> Option<FitCell> {
         *self.grid()?.fits.get(place.size)?.get(place.subject)?
     }
 
     /// Place of a job in the grid; `None` for a job of another garment.
-    #[must_use]
     pub fn place_of(&self, id: JobId) -> Option<Place> {
         let grid = self.grid()?;
         let job = self.job(id).filter(|job| job.garment == grid.garment)?;
@@ -133,7 +126,6 @@ impl Snapshot {
     }
 
     /// Ease that decides the fit of a job.
-    #[must_use]
     pub fn ease_of(&self, job: &JobRow) -> Option<&EaseRow> {
         let is_of_job =
             |ease: &&EaseRow| ease.garment == job.garment && ease.size == job.size && ease.subject == job.subject;
@@ -141,7 +133,6 @@ impl Snapshot {
     }
 
     /// Job of the same size and subject by the other simulator.
-    #[must_use]
     pub fn same_by_other(&self, job: &JobRow) -> Option<&JobRow> {
         let is_other = |other: &&JobRow| {
             other.garment == job.garment

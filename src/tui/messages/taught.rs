@@ -13,7 +13,6 @@ use wardrobe::seams::{SeamEdit, SeamStep};
 use wardrobe::{Mode, Part, StyleGiven};
 
 /// Command for an effect; `None` if it changes and writes nothing.
-#[must_use]
 pub fn command(effect: &Effect) -> Option<String> {
     match effect {
         Effect::Do(command) => of_command(command),
@@ -30,7 +29,6 @@ pub fn command(effect: &Effect) -> Option<String> {
 }
 
 /// True if a later message says that the effect is done or was refused.
-#[must_use]
 pub fn is_awaited(effect: &Effect) -> bool {
     match effect {
         Effect::Do(command) => command.is_from_form(),
@@ -149,7 +147,6 @@ fn new_study(new: &NewStudy) -> String {
 }
 
 /// Command for a step of work on the seams of a size, `STYLE/SIZE`.
-#[must_use]
 pub fn sewn(size: &str, step: &SeamStep) -> String {
     let told = |words: &[&str]| words.iter().map(|told| format!(" {}", word(told))).collect::<String>();
     let words = match step {

@@ -55,13 +55,11 @@ pub struct List {
 
 impl List {
     /// All actions of a table of keys, for a screen.
-    #[must_use]
     pub fn of(bindings: &'static [Binding], screen: Screen) -> Self {
         Self { bindings, screen, things: vec![], text: String::new(), row: 0 }
     }
 
     /// Adds studies and entries to go to.
-    #[must_use]
     pub fn and(self, things: Vec<Thing>) -> Self {
         Self { things, ..self }
     }
@@ -69,7 +67,6 @@ impl List {
     /// Rows that are shown. Without a text: actions in the order of the table, first those of the screen, then those of
     /// all screens, then others. With a text: actions of whose names a word begins with it, then studies and entries
     /// whose names match, then actions that contain it.
-    #[must_use]
     pub fn rows(&self) -> Vec<Row<'_>> {
         let text = self.text.trim();
         if text.is_empty() {

@@ -26,7 +26,6 @@ pub struct CommandLog {
 
 impl CommandLog {
     /// Log of some commands, the latest selected.
-    #[must_use]
     pub fn of(commands: &[String]) -> Self {
         Self { commands: commands.to_vec(), row: commands.len().saturating_sub(1) }
     }

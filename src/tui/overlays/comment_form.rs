@@ -43,7 +43,6 @@ const LABEL: usize = 10;
 
 impl Field {
     /// Name of the line.
-    #[must_use]
     pub fn label(self) -> &'static str {
         match self {
             Self::Side => "side",
@@ -95,7 +94,6 @@ pub struct CommentForm {
 
 impl CommentForm {
     /// The form of a new comment.
-    #[must_use]
     pub fn new(of: FittingOf) -> Self {
         let text = |field: Field| field.choices().first().map_or(String::new(), |first| (*first).to_owned());
         let lines = NEW.map(|field| (field, text(field))).to_vec();
@@ -103,7 +101,6 @@ impl CommentForm {
     }
 
     /// The form of a known comment.
-    #[must_use]
     pub fn of(of: FittingOf, comment: &Comment) -> Self {
         let lines = KNOWN.map(|field| (field, value(comment, field))).to_vec();
         Self { of, known: Some(comment.clone()), lines, at: 0, sending: Sending::default() }

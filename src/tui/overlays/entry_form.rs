@@ -69,7 +69,6 @@ impl Form {
     }
 
     /// The form of a new subject.
-    #[must_use]
     pub fn new_subject() -> Self {
         let mut texts = vec![String::new(); FIRST_NUMBER + MEASUREMENTS.len()];
         texts[WORD] = "female".to_owned();
@@ -77,7 +76,6 @@ impl Form {
     }
 
     /// The form for editing a subject.
-    #[must_use]
     pub fn of_subject(subject: &SubjectRow) -> Self {
         let value = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
         let mut texts = vec![subject.name.clone(), text::sex(subject).to_owned()];
@@ -86,7 +84,6 @@ impl Form {
     }
 
     /// The form for editing a fabric, or for a new one that starts with its numbers. `all` gives the usual ranges.
-    #[must_use]
     pub fn of_fabric(row: &FabricRow, mode: Mode, all: &[FabricRow]) -> Self {
         let is_new = mode == Mode::Add;
         let fabric = &row.fabric;
@@ -106,7 +103,6 @@ impl Form {
     }
 
     /// Name of the entry.
-    #[must_use]
     pub fn name(&self) -> &str {
         self.texts[NAME].trim()
     }
@@ -117,7 +113,6 @@ impl Form {
     }
 
     /// True if a line holds a number.
-    #[must_use]
     pub fn is_number(line: usize) -> bool {
         line >= FIRST_NUMBER
     }
@@ -132,7 +127,6 @@ impl Form {
     }
 
     /// Name of a line.
-    #[must_use]
     pub fn label(&self, line: usize) -> &'static str {
         match line {
             NAME => "name",
@@ -143,13 +137,11 @@ impl Form {
     }
 
     /// Unit of a line's number.
-    #[must_use]
     pub fn unit(&self, line: usize) -> &'static str {
         if Self::is_number(line) { unit_of(self.number(line).0) } else { "" }
     }
 
     /// Note beside a line.
-    #[must_use]
     pub fn note(&self, line: usize) -> Note {
         let text = self.texts[line].as_str();
         if text.trim().is_empty() && !self.is_tried {
@@ -249,14 +241,12 @@ impl Form {
 }
 
 /// Name of a number of fabrics, without the unit, which the command line adds.
-#[must_use]
 pub fn fabric_label(k: usize) -> &'static str {
     let label = FABRIC_NUMBERS[k].label;
     label.split_once(" [").map_or(label, |(name, _)| name)
 }
 
 /// Unit that ends a key.
-#[must_use]
 pub fn unit_of(key: &str) -> &'static str {
     const UNITS: [(&str, &str); 6] =
         [("_kg_m2", "kg/m²"), ("_n_m", "N/m"), ("_nm", "N m"), ("_pct", "%"), ("_kg", "kg"), ("_mm", "mm")];

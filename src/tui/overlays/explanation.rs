@@ -30,7 +30,6 @@ pub struct Selected {
 
 impl Selected {
     /// Makes the selection from its description, the names of its quantities, and the headings of its screen.
-    #[must_use]
     pub fn new(what: String, names: &[&str], headings: &[&str]) -> Self {
         Self { what, names: names.iter().chain(headings).map(|name| (*name).to_owned()).collect() }
     }
@@ -47,7 +46,6 @@ pub struct Explanation {
 
 impl Explanation {
     /// Explanation of a selection, whose terms come first.
-    #[must_use]
     pub fn of(selected: Selected) -> Self {
         let mut terms: Vec<&Term> = vec![];
         for next in selected.names.iter().filter_map(|name| term(name)).chain(TERMS.iter()) {

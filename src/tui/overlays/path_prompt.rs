@@ -36,7 +36,6 @@ pub enum Purpose {
 
 impl Purpose {
     /// Title of the prompt.
-    #[must_use]
     pub fn title(&self) -> &'static str {
         match self {
             Self::Import(Part::Fabric) => "import fabrics from",
@@ -50,7 +49,6 @@ impl Purpose {
     }
 
     /// Hint at the paths that are accepted.
-    #[must_use]
     pub fn hint(&self) -> &'static str {
         match self {
             Self::Import(Part::Fabric) => "TOML with [[fabric]] tables, or CSV with columns name, density_kg_m2, …",
@@ -66,7 +64,6 @@ impl Purpose {
     }
 
     /// Work that goes on after Enter.
-    #[must_use]
     pub fn busy(&self) -> &'static str {
         match self {
             Self::Import(Part::Fabric) => "reading…",
@@ -85,7 +82,6 @@ impl Purpose {
     }
 
     /// Legend of the keys.
-    #[must_use]
     pub fn keys(&self) -> &'static str {
         match self {
             Self::Import(_) => " ↵ import all or none  Tab complete  Esc cancel ",
@@ -113,7 +109,6 @@ pub struct PathPrompt {
 
 impl PathPrompt {
     /// Makes a prompt with a text to begin with.
-    #[must_use]
     pub fn new(purpose: Purpose, text: impl Into<String>) -> Self {
         Self { purpose, text: text.into(), offered: Candidates::default(), sending: Sending::default() }
     }
@@ -207,13 +202,11 @@ impl Candidates {
     }
 
     /// True where there is no choice.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.names.len() < 2
     }
 
     /// Names in lines of at most `columns` columns, at most `lines` of them.
-    #[must_use]
     pub fn lines(&self, columns: usize, lines: usize, theme: Theme) -> Vec<Line<'static>> {
         if self.is_empty() || lines == 0 {
             return vec![];

@@ -27,7 +27,6 @@ pub struct QueryList {
 
 impl QueryList {
     /// Queries that contain the text.
-    #[must_use]
     pub fn rows(&self) -> Vec<&SavedQuery> {
         let text = self.text.to_lowercase();
         self.queries

@@ -46,7 +46,6 @@ pub enum FormLine {
 
 impl FormLine {
     /// Heading of the part that the line belongs to.
-    #[must_use]
     pub fn section(self) -> &'static str {
         match self {
             Self::Name => "name",
@@ -103,7 +102,6 @@ pub struct StudyForm {
 
 impl StudyForm {
     /// Lines of the form, in order, without those that the filter hides.
-    #[must_use]
     pub fn lines(&self) -> Vec<FormLine> {
         let mut lines = vec![FormLine::Name];
         for k in 0..self.sizes.len() {
@@ -184,13 +182,11 @@ impl StudyForm {
     }
 
     /// The selected line.
-    #[must_use]
     pub fn line(&self) -> FormLine {
         self.lines().get(self.at).copied().unwrap_or(FormLine::Name)
     }
 
     /// Numbers of chosen subjects, sizes and simulators.
-    #[must_use]
     pub fn jobs(&self) -> [usize; 3] {
         let sizes = self.sizes.iter().filter(|(_, is_chosen)| *is_chosen).count();
         let subjects = self.subjects.iter().filter(|(_, is_chosen)| *is_chosen).count();
@@ -199,7 +195,6 @@ impl StudyForm {
     }
 
     /// True for a chosen line; `None` for lines that are filled in instead.
-    #[must_use]
     pub fn choice(&self, line: FormLine) -> Option<bool> {
         match line {
             FormLine::Name | FormLine::Fabric | FormLine::OwnOutfit => None,
@@ -244,9 +239,6 @@ impl StudyForm {
     }
 
     /// Chosen outfits and the typed one.
-    ///
-    /// # Errors
-    /// What is wrong with the typed one.
     pub fn worn_over(&self) -> Result<Vec<NewOutfit>, String> {
         let mut all: Vec<NewOutfit> = chosen(&self.outfits);
         if !self.own_outfit.trim().is_empty() {
@@ -256,9 +248,6 @@ impl StudyForm {
     }
 
     /// Number of simulations of layers of outfits, which only FEM-GS drapes.
-    ///
-    /// # Errors
-    /// What is wrong with an outfit.
     pub fn layer_jobs(&self) -> Result<usize, String> {
         let sizes = chosen(&self.sizes);
         let sizes: Vec<(&str, &str)> = sizes.iter().map(|size| (size.style.as_str(), size.size.as_str())).collect();

@@ -43,7 +43,6 @@ pub struct StyleForm {
 
 impl StyleForm {
     /// Meaning of a line that is left empty.
-    #[must_use]
     pub fn hint(&self, line: usize) -> String {
         match line {
             PATTERN => "a DXF file or a folder of them, GarmentCode JSON, or a study.toml".to_owned(),
@@ -56,7 +55,6 @@ impl StyleForm {
     }
 
     /// Name of the style: as typed, or that of the pattern file.
-    #[must_use]
     pub fn style(&self) -> String {
         let typed = self.texts[STYLE].trim();
         if !typed.is_empty() {
@@ -67,7 +65,6 @@ impl StyleForm {
     }
 
     /// Name of the size as typed.
-    #[must_use]
     pub fn size(&self) -> String {
         self.texts[SIZE].trim().to_owned()
     }

@@ -18,7 +18,6 @@ pub enum Thing {
 
 impl Thing {
     /// All studies and entries that were read.
-    #[must_use]
     pub fn all(data: Option<&Snapshot>) -> Vec<Self> {
         let Some(data) = data else { return vec![] };
         let studies = data.studies.iter().map(|row| Self::Study(row.name.clone()));
@@ -29,7 +28,6 @@ impl Thing {
     }
 
     /// Kind and name.
-    #[must_use]
     pub fn words(&self) -> (&'static str, String) {
         match self {
             Self::Study(name) => ("study", name.clone()),
@@ -40,7 +38,6 @@ impl Thing {
     }
 
     /// Screen that shows the study or entry.
-    #[must_use]
     pub fn screen(&self) -> Screen {
         match self {
             Self::Study(_) => Screen::Study,
@@ -52,7 +49,6 @@ impl Thing {
 
     /// Number of letters that lie between those of a text in these words; `None` where the words do not have its letters
     /// in order.
-    #[must_use]
     pub fn distance(&self, text: &str) -> Option<usize> {
         let (what, name) = self.words();
         let words: Vec<char> = format!("{what} {name}").to_lowercase().chars().collect();

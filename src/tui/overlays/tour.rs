@@ -51,13 +51,11 @@ pub struct Tour {
 
 impl Tour {
     /// Step by number, from 0; `None` after the last.
-    #[must_use]
     pub fn at(step: usize) -> Option<Self> {
         (step < STEPS.len()).then_some(Self { step })
     }
 
     /// Screen of the step.
-    #[must_use]
     pub fn screen(self) -> Screen {
         STEPS[self.step].0
     }

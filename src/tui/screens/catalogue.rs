@@ -67,7 +67,6 @@ pub fn remove_marked(state: &mut State, part: Part, marks: &Marks<String>, shown
 }
 
 /// Number of selected rows that are not on the screen, in words.
-#[must_use]
 pub fn hidden_words(hidden: usize) -> String {
     match hidden {
         1 => "1 more is selected that is not seen here".to_owned(),

@@ -18,19 +18,16 @@ impl<T: Ord> Default for Marks<T> {
 
 impl<T: Ord + Clone> Marks<T> {
     /// True if no row is marked.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.marked.is_empty()
     }
 
     /// Number of marked rows.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.marked.len()
     }
 
     /// True if a row is marked.
-    #[must_use]
     pub fn has(&self, row: &T) -> bool {
         self.marked.contains(row)
     }
@@ -74,7 +71,6 @@ impl<T: Ord + Clone> Marks<T> {
     }
 
     /// The marked rows among those that are shown, and the number of the others, which no action touches.
-    #[must_use]
     pub fn seen(&self, shown: &[T]) -> (Vec<T>, usize) {
         let shown: BTreeSet<&T> = shown.iter().collect();
         let seen: Vec<T> = self.marked.iter().filter(|row| shown.contains(row)).cloned().collect();

@@ -55,7 +55,6 @@ pub struct Screens {
 
 impl Screens {
     /// Returns a screen by its name.
-    #[must_use]
     pub fn page(&self, screen: Screen) -> &dyn Page {
         match screen {
             Screen::Study => &self.study,

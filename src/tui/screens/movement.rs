@@ -15,7 +15,6 @@ pub enum Movement {
 
 impl Movement {
     /// Row that the movement leads to, from `row` of `rows`.
-    #[must_use]
     pub fn from(self, row: usize, rows: usize) -> usize {
         let last = rows.saturating_sub(1);
         match self {
@@ -28,7 +27,6 @@ impl Movement {
 }
 
 /// Index some steps on, from the last on to the first; `None` in an empty list.
-#[must_use]
 pub fn stepped(index: usize, step: isize, len: usize) -> Option<usize> {
     (len > 0).then(|| (index as isize + step).rem_euclid(len as isize) as usize)
 }

@@ -11,7 +11,6 @@ pub struct Order<T> {
 
 impl<T: PartialEq> Order<T> {
     /// Title of a column, with a mark if rows are ordered by it.
-    #[must_use]
     pub fn titled(&self, title: &str, by: T) -> String {
         match (self.by == by, self.reversed) {
             (false, _) => title.to_owned(),

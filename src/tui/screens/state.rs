@@ -161,7 +161,6 @@ pub struct State {
 
 impl State {
     /// Makes a state in which nothing was read yet.
-    #[must_use]
     pub fn new(theme: Theme, abilities: Abilities, size: Size) -> Self {
         Self {
             theme,
@@ -195,73 +194,61 @@ impl State {
     }
 
     /// Area of the body of the screen.
-    #[must_use]
     pub fn body(&self) -> Rect {
         rows(Rect::from((Position::ORIGIN, self.terminal.size)))[1]
     }
 
     /// True if the database was read and has no study.
-    #[must_use]
     pub fn is_first_start(&self) -> bool {
         self.data.as_ref().is_some_and(|data| data.studies.is_empty())
     }
 
     /// True if the second pane of the shown screen has the focus.
-    #[must_use]
     pub fn in_second_pane(&self) -> bool {
         self.nav.second_pane[self.nav.screen as usize]
     }
 
     /// Filter of the shown screen.
-    #[must_use]
     pub fn filter(&self) -> &str {
         &self.nav.filters[self.nav.screen as usize]
     }
 
     /// Filter of a screen, in lower case.
-    #[must_use]
     pub fn filter_of(&self, screen: Screen) -> String {
         self.nav.filters[screen as usize].to_lowercase()
     }
 
     /// Shown study.
-    #[must_use]
     pub fn study(&self) -> Option<&StudyRow> {
         self.data.as_ref()?.study()
     }
 
     /// Shown grid; `None` where it has no size or no subject.
-    #[must_use]
     pub fn grid(&self) -> Option<&Grid> {
         self.data.as_ref()?.grid()
     }
 
     /// Offset of local time from UTC, ms.
-    #[must_use]
     pub fn offset_ms(&self) -> i64 {
         self.data.as_ref().map_or(0, |data| data.offset_ms)
     }
 
     /// The selected job.
-    #[must_use]
     pub fn job(&self) -> Option<&JobRow> {
         self.data.as_ref()?.job(self.focus.job?)
     }
 
     /// Details of the selected job; `None` until they are read.
-    #[must_use]
     pub fn detail(&self) -> Option<&Detail> {
         self.data.as_ref()?.detail.as_ref().filter(|detail| Some(detail.job) == self.focus.job)
     }
 
     /// Subject for trying a style on.
-    #[must_use]
     pub fn subject_in_hand(&self) -> Option<&SubjectRow> {
         self.data.as_ref()?.subjects.iter().find(|row| Some(row.id) == self.in_hand.subject)
     }
 
     /// Sign of a marked job; empty for any other.
-    #[must_use]
     pub fn mark_of(&self, job: Option<JobId>) -> &'static str {
         if job.is_some_and(|job| self.marks.has(&job)) { "•" } else { "" }
     }

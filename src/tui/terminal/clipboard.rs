@@ -37,9 +37,6 @@ impl Way {
 }
 
 /// Copies a text. Returns where it is now, in words; `out` is the terminal, and `file` takes what has no clipboard.
-///
-/// # Errors
-/// The reason in words: the terminal is gone, or the file cannot be written.
 pub fn copy(text: &str, env: &Env<'_>, out: &mut impl Write, file: Option<&Path>) -> Result<String, String> {
     match Way::of(text.len(), env) {
         Way::Tmux if loaded(&["-w"], text) => {

@@ -7,9 +7,6 @@ use std::process::Command;
 use crate::messages::effect::Writing;
 
 /// Opens a text in `$VISUAL`, `$EDITOR` or vi. Returns the saved text.
-///
-/// # Errors
-/// The reason in words: no such editor, an error of the editor, or a file that cannot be read.
 pub fn edit(what: &Writing) -> Result<String, String> {
     let (text, ending) = match what {
         Writing::File(path) => {

@@ -54,9 +54,6 @@ pub struct FramedBackend<W: Write> {
 
 impl<W: Write> FramedBackend<W> {
     /// Output to a terminal. Without `fixed`, the size is that of this process's terminal.
-    ///
-    /// # Errors
-    /// When the terminal does not say its size.
     pub fn new(out: W, fixed: Option<Size>) -> io::Result<Self> {
         let mut line = Self { out, fixed, size: Size::ZERO, slots: vec![] };
         line.fit(line.size()?);
@@ -70,7 +67,6 @@ impl<W: Write> FramedBackend<W> {
     }
 
     /// Kind of cells that are drawn but not sent.
-    #[must_use]
     pub fn late(&self) -> Late {
         let mut late = self.slots.iter().filter(|slot| slot.is_late).peekable();
         if late.peek().is_none() {
@@ -80,9 +76,6 @@ impl<W: Write> FramedBackend<W> {
     }
 
     /// Sends a frame: texts, then pictures if `with_pictures`. Returns its number of bytes.
-    ///
-    /// # Errors
-    /// When the terminal is gone.
     pub fn send(&mut self, with_pictures: bool) -> io::Result<usize> {
         let mut frame = Frame::default();
         let columns = usize::from(self.size.width).max(1);

@@ -42,9 +42,6 @@ pub struct Display {
 impl Display {
     /// Takes the terminal: raw keys, alternate screen, hidden cursor. A panic gives it back before the panic is
     /// reported.
-    ///
-    /// # Errors
-    /// When standard input or output is no terminal.
     pub fn enter() -> io::Result<Self> {
         if !(io::stdin().is_terminal() && io::stdout().is_terminal()) {
             return Err(io::Error::other("standard input or output is none"));
@@ -76,17 +73,11 @@ impl Display {
     }
 
     /// Size of the terminal.
-    ///
-    /// # Errors
-    /// When the terminal is gone.
     pub fn size(&self) -> io::Result<Size> {
         self.terminal.size()
     }
 
     /// Draws the screen, now or when the last frame is old enough.
-    ///
-    /// # Errors
-    /// When the terminal is gone.
     pub fn show(&mut self, draw: impl FnOnce(&mut Frame<'_>)) -> io::Result<()> {
         self.is_stale = true;
         self.go_on(draw)
@@ -94,9 +85,6 @@ impl Display {
 
     /// Draws the screen if the state has changed, and sends the next frame, with pictures if no key was pressed lately.
     /// Does nothing while the last frame is too young.
-    ///
-    /// # Errors
-    /// When the terminal is gone.
     pub fn go_on(&mut self, draw: impl FnOnce(&mut Frame<'_>)) -> io::Result<()> {
         if !self.age_left().is_zero() {
             return Ok(());
@@ -112,7 +100,6 @@ impl Display {
     }
 
     /// Time until the next frame is due; `None` if nothing waits to be sent.
-    #[must_use]
     pub fn pause(&self) -> Option<Duration> {
         match self.terminal.backend().late() {
             Late::Nothing if !self.is_stale => None,
@@ -139,9 +126,6 @@ impl Display {
     }
 
     /// Lends the terminal to another program during `work`, and takes it again.
-    ///
-    /// # Errors
-    /// When the terminal is gone.
     pub fn lend<T>(&mut self, work: impl FnOnce() -> T) -> io::Result<T> {
         restore();
         let outcome = work();
@@ -152,9 +136,6 @@ impl Display {
     }
 
     /// Draws everything again.
-    ///
-    /// # Errors
-    /// When the terminal is gone.
     pub fn clear(&mut self) -> io::Result<()> {
         self.terminal.clear()
     }
@@ -167,9 +148,6 @@ impl Drop for Display {
 }
 
 /// Captures the mouse, or leaves it to the terminal.
-///
-/// # Errors
-/// When the terminal is gone.
 pub fn take_mouse(is_taken: bool) -> io::Result<()> {
     if is_taken { execute!(io::stdout(), EnableMouseCapture) } else { execute!(io::stdout(), DisableMouseCapture) }
 }
@@ -183,9 +161,6 @@ pub fn stop() {
 
 /// Replaces standard input by a silent socket once its terminal is gone. Otherwise crossterm would read the end of
 /// input over and over and keep a core busy. The socket is silent while the returned end lives.
-///
-/// # Errors
-/// When the system has no sockets or descriptors left.
 pub fn silence_input() -> io::Result<UnixStream> {
     let (ours, silent) = UnixStream::pair()?;
     silent.set_nonblocking(true)?;

@@ -62,7 +62,6 @@ pub struct Threads {
 
 impl Threads {
     /// Starts all threads except that of runs.
-    #[must_use]
     pub fn start(
         store: Store,
         encoder: Option<PictureEncoder>,
@@ -144,7 +143,6 @@ impl Threads {
     }
 
     /// Path of a study to run.
-    #[must_use]
     pub fn path_of(&self, target: Target) -> PathBuf {
         match target {
             Target::Study(path) => path,

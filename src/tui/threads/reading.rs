@@ -10,9 +10,6 @@ use store::{JobFilter, JobId, Result, Status, Store, StudyError, comments, now_m
 use wardrobe::catalogue;
 
 /// Reads the data for a focus.
-///
-/// # Errors
-/// When the database cannot be read.
 pub fn snapshot(store: &Store, focus: &Focus) -> Result<Snapshot> {
     let studies = read::studies(store)?;
     let study = studies.iter().position(|study| Some(&study.name) == focus.study.as_ref()).unwrap_or(0);
@@ -82,9 +79,6 @@ pub fn tell_interrupted(snapshot: &mut Snapshot, interrupted: &[Interrupted]) {
 }
 
 /// Adapts an earlier reading to another focus on jobs, if nothing was written since.
-///
-/// # Errors
-/// When the database cannot be read.
 pub fn refocused(store: &Store, mut before: Snapshot, focus: &Focus) -> Result<Snapshot> {
     before.now_ms = now_ms();
     before.detail = focus.job.filter(|id| before.job(*id).is_some()).map(|job| detail(store, job)).transpose()?;

@@ -13,7 +13,6 @@ const STEP_M: f64 = 0.1;
 const MARGIN: f64 = 1.05;
 
 /// Draws a frame as `rows` lines of braille with `columns` columns.
-#[must_use]
 pub fn braille(frame: &LiveFrame, look: Look, columns: usize, rows: usize, style: Style) -> Vec<Line<'static>> {
     let (sin, cos) = f64::from(look.azimuth_deg).to_radians().sin_cos();
     let seen: Vec<[f64; 2]> = frame.positions.iter().map(|p| [p.y * sin - p.x * cos, p.z]).collect();

@@ -23,13 +23,11 @@ pub struct Dots {
 
 impl Dots {
     /// Cells without a dot.
-    #[must_use]
     pub fn new(columns: usize, rows: usize) -> Self {
         Self { columns, cells: vec![(0, Style::new()); columns * rows] }
     }
 
     /// Number of dots across and down.
-    #[must_use]
     pub fn size(&self) -> [usize; 2] {
         [2 * self.columns, 4 * self.cells.len() / self.columns.max(1)]
     }
@@ -66,7 +64,6 @@ impl Dots {
     }
 
     /// Rows of text, with a span for each run of one style.
-    #[must_use]
     pub fn lines(&self) -> Vec<Line<'static>> {
         let row = |row: &[(u32, Style)]| {
             let runs = row.chunk_by(|one, next| one.1 == next.1);

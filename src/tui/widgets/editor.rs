@@ -88,13 +88,11 @@ pub struct Offer {
 
 impl Editor {
     /// The text.
-    #[must_use]
     pub fn text(&self) -> &str {
         &self.text
     }
 
     /// The words offered.
-    #[must_use]
     pub fn offer(&self) -> Option<&Offer> {
         self.offer.as_ref()
     }
@@ -116,13 +114,11 @@ impl Editor {
     }
 
     /// Meaning of letters; `None` for readline, where it does not change.
-    #[must_use]
     pub fn mode(&self) -> Option<Mode> {
         (self.editing == Editing::Vim).then_some(self.mode)
     }
 
     /// Line and column of the cursor, in characters from 0.
-    #[must_use]
     pub fn place(&self) -> (usize, usize) {
         let before = &self.text[..self.cursor];
         let line = before.matches('\n').count();

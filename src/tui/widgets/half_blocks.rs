@@ -18,7 +18,6 @@ pub struct Blocks {
 
 impl Blocks {
     /// Makes half blocks from a picture.
-    #[must_use]
     pub fn of(picture: &RgbaImage, size: Size) -> Self {
         let (columns, rows) = (u32::from(size.width), u32::from(size.height));
         let half = |x: u32, y: u32| {
@@ -49,7 +48,6 @@ impl Blocks {
 }
 
 /// Picture as letters: the darker, the denser. Background stays blank.
-#[must_use]
 pub fn letters(picture: &RgbaImage, size: Size) -> Vec<String> {
     const RAMP: [char; 4] = ['░', '▒', '▓', '█'];
     let (columns, rows) = (u32::from(size.width), u32::from(size.height));
@@ -83,7 +81,6 @@ fn mean(picture: &RgbaImage, (column, columns): (u32, u32), (row, rows): (u32, u
 }
 
 /// Opaque part of a picture, with a small margin.
-#[must_use]
 pub fn cropped(picture: &RgbaImage) -> RgbaImage {
     let (width, height) = picture.dimensions();
     let shown = picture.enumerate_pixels().filter(|(.., pixel)| is_opaque(pixel));

@@ -53,7 +53,6 @@ pub fn rows(pane: usize, area: Rect, head: usize, rows: usize, selected: usize) 
 }
 
 /// Goal of a click: that of the smallest target at a place.
-#[must_use]
 pub fn hit(targets: &[Target], at: Position) -> Option<Goal> {
     let is_hit = |target: &&Target| Rect::from((target.at, target.size)).contains(at);
     let area = |target: &&Target| u32::from(target.size.width) * u32::from(target.size.height);

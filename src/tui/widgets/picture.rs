@@ -51,20 +51,17 @@ const ZOOM_PCT: [u32; 2] = [100, 800];
 pub const FRONT: Look = Look { azimuth_deg: 0, zoom_pct: 100, rise_pct: 0 };
 
 /// Named view of a look; `None` for other angles.
-#[must_use]
 pub fn view_of(look: Look) -> Option<View> {
     View::ALL.into_iter().find(|view| view.azimuth_deg() as i32 == look.azimuth_deg)
 }
 
 /// Name of a look: view or angle, then enlargement.
-#[must_use]
 pub fn look_name(look: Look) -> String {
     let side = view_of(look).map_or_else(|| format!("{}°", look.azimuth_deg), |view| view.as_str().to_owned());
     if look.zoom_pct == FRONT.zoom_pct { side } else { format!("{side} ×{:.1}", f64::from(look.zoom_pct) / 100.0) }
 }
 
 /// Named view that follows a look.
-#[must_use]
 pub fn next_view(look: Look) -> Look {
     let at = view_of(look).and_then(|view| View::ALL.iter().position(|known| *known == view));
     let next = View::ALL[at.map_or(0, |at| (at + 1) % View::ALL.len())];
@@ -72,14 +69,12 @@ pub fn next_view(look: Look) -> Look {
 }
 
 /// Look turned by some steps about the vertical.
-#[must_use]
 pub fn turned(look: Look, steps: isize) -> Look {
     let azimuth_deg = (look.azimuth_deg + TURN_DEG * steps as i32).rem_euclid(360);
     Look { azimuth_deg, ..look }
 }
 
 /// Look enlarged by some steps, or reduced if negative.
-#[must_use]
 pub fn zoomed(look: Look, steps: i32) -> Look {
     let zoom_pct = if steps > 0 { look.zoom_pct * 5 / 4 } else { look.zoom_pct * 4 / 5 };
     let zoom_pct = zoom_pct.clamp(ZOOM_PCT[0], ZOOM_PCT[1]);
@@ -89,7 +84,6 @@ pub fn zoomed(look: Look, steps: i32) -> Look {
 }
 
 /// Enlarged look, raised by some steps.
-#[must_use]
 pub fn raised(look: Look, steps: i32) -> Look {
     let step = (2000 / look.zoom_pct as i32).max(2);
     let reach = 100 - 100 * ZOOM_PCT[0] as i32 / look.zoom_pct as i32;
@@ -97,7 +91,6 @@ pub fn raised(look: Look, steps: i32) -> Look {
 }
 
 /// Map that follows another.
-#[must_use]
 pub fn next_map(map: Map) -> Map {
     let at = Map::ALL.iter().position(|known| *known == map).unwrap_or(0);
     Map::ALL[(at + 1) % Map::ALL.len()]
@@ -161,7 +154,6 @@ pub struct PictureEncoder {
 
 impl PictureEncoder {
     /// Chooses the best way to show pictures in this terminal; `None` if they are off.
-    #[must_use]
     pub fn new(images: Images, colours: Colours, env: &dyn Fn(&str) -> Option<String>) -> Option<Self> {
         let letters = colours == Colours::None;
         let pixels = match images {
@@ -173,22 +165,17 @@ impl PictureEncoder {
     }
 
     /// Encoder for pixels by a protocol with cells of a size, for letters, or for half blocks.
-    #[must_use]
     pub fn with(pixels: Option<(ProtocolType, FontSize)>, letters: bool) -> Self {
         let picker = pixels.map(|(protocol, cell)| picker_of(protocol, cell));
         Self { picker, letters, cell: pixels.map_or(SMALL, |(_, cell)| cell) }
     }
 
     /// Width and height, in pixels, at which a picture must be rendered.
-    #[must_use]
     pub fn pixels(&self, request: &PictureRequest) -> (u32, u32) {
         (u32::from(request.columns) * u32::from(self.cell.width), u32::from(request.rows) * u32::from(self.cell.height))
     }
 
     /// Crops a picture to what it shows and fits it into its pane.
-    ///
-    /// # Errors
-    /// When the picture cannot be encoded for this terminal.
     pub fn draw(&self, picture: &RgbaImage, request: &PictureRequest) -> Result<Drawn, String> {
         let picture = cropped(picture);
         let cell = self.cell;
@@ -212,7 +199,6 @@ impl PictureEncoder {
 
 /// Protocol of a terminal that identifies itself; `None` inside tmux and screen, which pass pixels on only if they are
 /// told to.
-#[must_use]
 pub fn pixel_protocol(env: &dyn Fn(&str) -> Option<String>) -> Option<ProtocolType> {
     let is = |name: &str, value: &str| env(name).is_some_and(|found| found == value);
     if env("TMUX").is_some() || env("STY").is_some() {

@@ -40,7 +40,6 @@ pub struct ResultTable {
 
 impl ResultTable {
     /// Makes the table of an answer, in a time proportional to its size. Meant for threads.
-    #[must_use]
     pub fn of(answer: SqlAnswer) -> Self {
         let words = answer.table.rows.iter().map(|row| {
             let cells: Vec<String> = row.iter().map(Value::to_string).collect();
@@ -57,37 +56,31 @@ impl ResultTable {
     }
 
     /// Names of the columns.
-    #[must_use]
     pub fn names(&self) -> &[String] {
         &self.answer.table.columns
     }
 
     /// Width and kind of a column.
-    #[must_use]
     pub fn column_of(&self, k: usize) -> Column {
         self.columns[k]
     }
 
     /// Number of rows shown.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.shown.len()
     }
 
     /// Number of all rows.
-    #[must_use]
     pub fn total(&self) -> usize {
         self.answer.table.rows.len()
     }
 
     /// True if the query has more rows than the answer.
-    #[must_use]
     pub fn is_cut(&self) -> bool {
         self.answer.is_cut
     }
 
     /// Values of a shown row.
-    #[must_use]
     pub fn values(&self, row: usize) -> Option<&[Value]> {
         self.shown.get(row).map(|at| self.answer.table.rows[*at].as_slice())
     }
@@ -128,7 +121,6 @@ impl ResultTable {
 
     /// Columns that fit into `room`: the first, which stays; then the last ones up to the selected column, and those
     /// after it.
-    #[must_use]
     pub fn columns_shown(&self, room: usize) -> Vec<usize> {
         let Some((first, rest)) = self.columns.split_first() else { return vec![] };
         let widths: Vec<usize> = rest.iter().map(|column| column.width + 2).collect();
@@ -150,7 +142,6 @@ impl ResultTable {
     }
 
     /// Shown rows as text, separated by tabs, below the names of the columns.
-    #[must_use]
     pub fn copied(&self, rows: impl Iterator<Item = usize>) -> String {
         let line = |values: &[Value]| values.iter().map(Value::to_string).collect::<Vec<_>>().join("\t");
         let lines = rows.filter_map(|row| self.values(row).map(line));
@@ -159,7 +150,6 @@ impl ResultTable {
 }
 
 /// Value in one line: numbers with at most six significant digits, texts without line feeds.
-#[must_use]
 pub fn cell_text(value: &Value) -> String {
     match value {
         Value::Null => "—".to_owned(),

@@ -8,13 +8,11 @@ use store::{JobProgress, JobRow, Status};
 use wardrobe::SubjectRow;
 
 /// Width of a text in columns.
-#[must_use]
 pub fn width(text: &str) -> usize {
     Span::raw(text).width()
 }
 
 /// Text in exactly `columns` columns, left-aligned; a long text ends in `…`.
-#[must_use]
 pub fn left(text: &str, columns: usize) -> String {
     let text = shortened(text, columns);
     let gap = columns - width(&text);
@@ -22,14 +20,12 @@ pub fn left(text: &str, columns: usize) -> String {
 }
 
 /// Text in exactly `columns` columns, right-aligned; a long text ends in `…`.
-#[must_use]
 pub fn right(text: &str, columns: usize) -> String {
     let text = shortened(text, columns);
     format!("{}{text}", " ".repeat(columns - width(&text)))
 }
 
 /// Text in at most `columns` columns.
-#[must_use]
 pub fn shortened(text: &str, columns: usize) -> String {
     if width(text) <= columns {
         return text.to_owned();
@@ -55,37 +51,31 @@ pub fn shortened(text: &str, columns: usize) -> String {
 }
 
 /// Length in mm.
-#[must_use]
 pub fn mm(metres: f64) -> String {
     format!("{:.1}", metres * 1000.0)
 }
 
 /// Number as it can be typed, exactly; small numbers have an exponent.
-#[must_use]
 pub fn exact(value: f64) -> String {
     if value != 0.0 && value.abs() < 1e-3 { format!("{value:e}") } else { value.to_string() }
 }
 
 /// Name of a level, region or point in words.
-#[must_use]
 pub fn words(name: &str) -> String {
     name.replace('_', " ")
 }
 
 /// Whole number with U+2212 as its minus sign.
-#[must_use]
 pub fn whole(value: f64) -> String {
     format!("{value:.0}").replace('-', "−")
 }
 
 /// Ease in whole mm, with its sign.
-#[must_use]
 pub fn ease_mm(metres: f64) -> String {
     format!("{:+.0}", metres * 1000.0)
 }
 
 /// Time, ms since 1970, as date and time (UTC): `2026-03-01 07:05`.
-#[must_use]
 pub fn date(ms: i64) -> String {
     let (days, minutes) = (ms.div_euclid(86_400_000), ms.rem_euclid(86_400_000) / 60_000);
     // Years begin in March here, so that the leap day comes last; 146,097 days are 400 years.
@@ -99,7 +89,6 @@ pub fn date(ms: i64) -> String {
 }
 
 /// Duration in at most six columns.
-#[must_use]
 pub fn duration(ms: i64) -> String {
     let seconds = ms.max(0) / 1000;
     match seconds {
@@ -111,7 +100,6 @@ pub fn duration(ms: i64) -> String {
 }
 
 /// Short name of a simulator.
-#[must_use]
 pub fn sim(simulator: Simulator) -> &'static str {
     match simulator {
         Simulator::Fem => "FEM",
@@ -120,7 +108,6 @@ pub fn sim(simulator: Simulator) -> &'static str {
 }
 
 /// The sex of a subject.
-#[must_use]
 pub fn sex(subject: &SubjectRow) -> &'static str {
     match subject.measurements.sex {
         Sex::Male => "male",
@@ -129,7 +116,6 @@ pub fn sex(subject: &SubjectRow) -> &'static str {
 }
 
 /// Status in words.
-#[must_use]
 pub fn status(status: Status) -> &'static str {
     match status {
         Status::NotConverged => "not at rest",
@@ -138,19 +124,16 @@ pub fn status(status: Status) -> &'static str {
 }
 
 /// EI as lists show it.
-#[must_use]
 pub fn ei(value: f64) -> String {
     format!("{value:.4}")
 }
 
 /// Phase and share done of a running job.
-#[must_use]
 pub fn progress(progress: &JobProgress) -> String {
     format!("{} {:.0}%", left(&progress.phase, 5), progress.fraction * 100.0)
 }
 
 /// Share, 0 to 1, as a bar of `columns` columns.
-#[must_use]
 pub fn progress_bar(share: f64, columns: usize) -> String {
     const EIGHTHS: [&str; 8] = ["", "▏", "▎", "▍", "▌", "▋", "▊", "▉"];
     let eighths = (share.clamp(0.0, 1.0) * columns as f64 * 8.0) as usize;
@@ -160,7 +143,6 @@ pub fn progress_bar(share: f64, columns: usize) -> String {
 
 /// Departure of a chi from 1 as a bar to the left or right of a middle line. Each side has `side` columns for 5 %; `◀`
 /// or `▶` ends a longer bar.
-#[must_use]
 pub fn chi_bar(chi: f64, side: usize) -> String {
     let steps = (chi - 1.0) / 0.05 * side as f64;
     let length = (steps.abs().round() as usize).min(side);
@@ -177,7 +159,6 @@ pub fn chi_bar(chi: f64, side: usize) -> String {
 }
 
 /// Departure of a chi from 1 in one column: within 1 %, up to 3 % above or below, or more.
-#[must_use]
 pub fn chi_mark(chi: f64) -> &'static str {
     match chi - 1.0 {
         error if error.abs() <= 0.01 => "·",
@@ -189,7 +170,6 @@ pub fn chi_mark(chi: f64) -> &'static str {
 }
 
 /// Latest numbers that fit, as a line of eight heights; a number that is not finite leaves a gap.
-#[must_use]
 pub fn sparkline(values: &[f64], columns: usize) -> String {
     const HEIGHTS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
     let shown = resampled(values, columns);
@@ -213,7 +193,6 @@ fn resampled(values: &[f64], columns: usize) -> Vec<f64> {
 }
 
 /// Reason for the present status of a job, in a few words.
-#[must_use]
 pub fn why(job: &JobRow, paused: bool) -> String {
     let inside = job.inside();
     match job.status {
@@ -240,7 +219,6 @@ pub fn why(job: &JobRow, paused: bool) -> String {
 }
 
 /// Zone of times with an offset from UTC in ms.
-#[must_use]
 pub fn zone(offset_ms: i64) -> String {
     let minutes = offset_ms / 60_000;
     let sign = if minutes < 0 { '−' } else { '+' };

@@ -26,7 +26,6 @@ const BASIC: [&str; 6] = ["linux", "xterm", "screen", "vt220", "ansi", "xterm-16
 
 impl Colours {
     /// Detects the colours from the environment: `NO_COLOR`, `TERM`, `COLORTERM`.
-    #[must_use]
     pub fn detect(no_color: bool, env: &dyn Fn(&str) -> Option<String>) -> Self {
         let term = env("TERM").unwrap_or_default();
         let says_true = matches!(env("COLORTERM").as_deref(), Some("truecolor" | "24bit"));
@@ -45,7 +44,6 @@ impl Colours {
 }
 
 /// True if the environment asks for ASCII, by `TOILE_ASCII` or a terminal that has only ASCII.
-#[must_use]
 pub fn wants_ascii(env: &dyn Fn(&str) -> Option<String>) -> bool {
     let term = env("TERM").unwrap_or_default();
     env("TOILE_ASCII").is_some_and(|value| !value.is_empty()) || term == "dumb" || term.starts_with("vt")
@@ -75,7 +73,6 @@ impl Role {
     pub const ALL: [Self; 7] = [Self::Good, Self::Warn, Self::Bad, Self::Busy, Self::Focus, Self::Dim, Self::Selected];
 
     /// Name in the file of colours.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Good => "good",
@@ -119,7 +116,6 @@ pub struct Theme {
 
 impl Theme {
     /// Theme of a terminal, without a file of colours.
-    #[must_use]
     pub fn new(colours: Colours, ascii: bool) -> Self {
         Self { colours, ascii, roles: Roles::default() }
     }
@@ -147,74 +143,62 @@ impl Theme {
     }
 
     /// Style for right or finished.
-    #[must_use]
     pub fn good(self) -> Style {
         self.plain(Role::Good)
     }
 
     /// Style for worth a second look.
-    #[must_use]
     pub fn warn(self) -> Style {
         self.plain(Role::Warn)
     }
 
     /// Style for wrong or failed.
-    #[must_use]
     pub fn bad(self) -> Style {
         self.plain(Role::Bad)
     }
 
     /// Style for not finished yet.
-    #[must_use]
     pub fn busy(self) -> Style {
         self.plain(Role::Busy)
     }
 
     /// Style for less important.
-    #[must_use]
     pub fn dim(self) -> Style {
         self.of(Role::Dim, Style::new(), Style::new().add_modifier(Modifier::DIM))
     }
 
     /// Style of a legend in a border: less important, even if the border has the focus.
-    #[must_use]
     pub fn legend(self) -> Style {
         Style::reset().patch(self.dim())
     }
 
     /// Style for more important.
-    #[must_use]
     pub fn bold(self) -> Style {
         Style::new().add_modifier(Modifier::BOLD)
     }
 
     /// Style of the selection in the pane with the focus.
-    #[must_use]
     pub fn selected(self) -> Style {
         let reversed = Style::new().add_modifier(Modifier::REVERSED);
         self.of(Role::Selected, reversed, reversed)
     }
 
     /// Style of the selection in another pane.
-    #[must_use]
     pub fn marked(self) -> Style {
         Style::new().add_modifier(Modifier::BOLD | Modifier::UNDERLINED)
     }
 
     /// Style of a selection.
-    #[must_use]
     pub fn selection(self, focused: bool) -> Style {
         if focused { self.selected() } else { self.marked() }
     }
 
     /// Style of a pane's border.
-    #[must_use]
     pub fn border(self, focused: bool) -> Style {
         if focused { self.plain(Role::Focus).add_modifier(Modifier::BOLD) } else { self.dim() }
     }
 
     /// Style of a status.
-    #[must_use]
     pub fn status(self, status: Status) -> Style {
         match status {
             Status::Done => self.good(),
@@ -226,13 +210,11 @@ impl Theme {
     }
 
     /// Style of the state of a result, of which `is_inside` says if it lies too deep inside the body.
-    #[must_use]
     pub fn result(self, status: Status, is_inside: bool) -> Style {
         if is_inside { self.warn() } else { self.status(status) }
     }
 
     /// Style of a chi, by its departure from 1.
-    #[must_use]
     pub fn chi(self, chi: f64) -> Style {
         match (chi - 1.0).abs() {
             error if error <= 0.01 => self.good(),
@@ -242,13 +224,11 @@ impl Theme {
     }
 
     /// Colour of a seam or a size; its letter or line says the same.
-    #[must_use]
     pub fn lettered(self, number: usize) -> Color {
         self.shown(self.roles.seams[number % self.roles.seams.len()])
     }
 
     /// True if the terminal has colours.
-    #[must_use]
     pub fn has_colours(self) -> bool {
         self.colours != Colours::None
     }
@@ -320,7 +300,6 @@ fn basic(colour: Color) -> Color {
 }
 
 /// Glyph of a status.
-#[must_use]
 pub fn glyph(status: Status) -> &'static str {
     match status {
         Status::Queued => "…",
@@ -333,13 +312,11 @@ pub fn glyph(status: Status) -> &'static str {
 }
 
 /// Sign of a state: its glyph, and `!` for a result that lies too deep inside the body.
-#[must_use]
 pub fn sign(status: Status, is_inside: bool) -> String {
     format!("{}{}", glyph(status), if is_inside { "!" } else { "" })
 }
 
 /// Glyph of a fit: its class, then `!` if undersized or `~` if borderline.
-#[must_use]
 pub fn fit_glyph(fit: &FitCell) -> String {
     let class = match fit.class {
         FitClass::Tight => 'T',

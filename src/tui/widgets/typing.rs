@@ -11,7 +11,6 @@ pub fn is_ctrl_c(event: &KeyEvent) -> bool {
 }
 
 /// Row that a key leads to from `row` of `rows`; `None` for a key that moves nothing. Letters move where none are typed.
-#[must_use]
 pub fn moved(row: usize, rows: usize, event: &KeyEvent, has_letters: bool) -> Option<usize> {
     let ctrl = event.modifiers.contains(KeyModifiers::CONTROL);
     let last = rows.saturating_sub(1);

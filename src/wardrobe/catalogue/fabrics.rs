@@ -10,12 +10,10 @@ use spec::FABRIC_NUMBERS;
 use spec::entry::Entry;
 use store::{Result, Store, Table, Value};
 
-/// A fabric of the catalogue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FabricRow {
     /// Name and numbers of the fabric, with their source.
     pub fabric: Fabric,
-    /// Number of the revision.
     pub revision: i64,
     /// True where a user or a study added or changed the fabric; false for a built-in one.
     pub is_own: bool,
@@ -25,14 +23,12 @@ pub struct FabricRow {
 
 impl FabricRow {
     /// True if the fabric stands for a class of cloths, not for one cloth.
-    #[must_use]
     pub fn is_class(&self) -> bool {
         self.fabric.known().is_some_and(|known| known.kind == Kind::Class)
     }
 
     /// Kind of a built-in fabric, in words: one cloth, with the numbers that come from another cloth; or a class, with
     /// the bending lengths of the middle eight tenths of its cloths. `None` for any other fabric.
-    #[must_use]
     pub fn stands_for(&self) -> Option<String> {
         let known = self.fabric.known()?;
         let [least, most] = sim::fabric::weights::ends();
@@ -49,9 +45,8 @@ impl FabricRow {
         Some(format!("{}{told}", known.kind))
     }
 
-    /// Force per width, N/m, that stretches a strip by a share of its length: along the grain, and across it. The strip
-    /// may become narrower.
-    #[must_use]
+    /// Force per width that stretches a strip by a share of its length: along the grain, and across it. The strip may
+    /// become narrower.
     pub fn tensions_n_m(&self, stretch: f64) -> [f64; 2] {
         let strain = stretch * (1.0 + 0.5 * stretch);
         let laws = [self.fabric.warp_law(), self.fabric.weft_law()];
@@ -90,7 +85,6 @@ const BENDING: [&str; 8] = [
 
 /// Adds columns to a table of fabrics with the columns of `v_fabrics`: kind, numbers from other cloths, bending
 /// lengths, their ranks among the known cloths of the same weight, and the ranges of the class.
-#[must_use]
 pub fn with_bending(mut table: Table) -> Table {
     let column_of = |key: &str| table.columns.iter().position(|column| column == key);
     let name = column_of("fabric");
@@ -106,7 +100,6 @@ pub fn with_bending(mut table: Table) -> Table {
     table
 }
 
-/// Number in a cell of a table.
 fn number(value: &Value) -> Option<f64> {
     match value {
         Value::Real(number) => Some(*number),
@@ -115,7 +108,6 @@ fn number(value: &Value) -> Option<f64> {
     }
 }
 
-/// Values of the columns [`BENDING`].
 fn bending(fabric: &Fabric) -> [Value; 8] {
     let tenths = |length_m: f64| (mm(length_m) * 10.0).round() / 10.0;
     let known = fabric.known();
@@ -130,15 +122,11 @@ fn bending(fabric: &Fabric) -> [Value; 8] {
     [kind, text(borrowed), along, across, rank_along, rank_across, class_along, class_across]
 }
 
-/// Numbers that come from another cloth, in words.
 fn parts(parts: &[sim::fabric::Part]) -> String {
     parts.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
 
-/// The fabrics of the catalogue, by name.
-///
-/// # Errors
-/// When the database cannot be read.
+/// Sorted by name.
 pub fn fabrics(store: &Store) -> Result<Vec<FabricRow>> {
     let mut fabrics = stored_fabrics(&store.reader)?;
     let sql = "SELECT name, sum(jobs) FROM fabric JOIN

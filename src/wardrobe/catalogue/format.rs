@@ -5,7 +5,6 @@ use std::path::Path;
 use pattern::table;
 use store::Problem;
 
-/// Format of a file to import.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Format {
     Csv,
@@ -14,7 +13,6 @@ pub(super) enum Format {
     Mesh,
 }
 
-/// The format of a file, by the ending of its name.
 pub(super) fn format_of(path: &Path) -> Option<Format> {
     match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
         "csv" | "tsv" => Some(Format::Csv),
@@ -24,12 +22,11 @@ pub(super) fn format_of(path: &Path) -> Option<Format> {
     }
 }
 
-/// The problem of a file that is of no format that can be imported.
 pub(super) fn unknown_format(path: &Path, accepted: &str) -> Problem {
     Problem::of(path, format!("its name tells no format that can be imported; accepted: {accepted}"))
 }
 
-/// The text of a file, without a byte order mark.
+/// Drops a byte order mark.
 pub(super) fn text_of<'b>(path: &Path, bytes: &'b [u8]) -> Result<&'b str, Vec<Problem>> {
     table::text(bytes).map_err(|line| {
         let message = "bytes that are no text; accepted: UTF-8".to_owned();

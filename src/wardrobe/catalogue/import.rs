@@ -19,27 +19,21 @@ use store::{Problem, Result, Store, StudyError};
 /// Treatment of files with problems.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Strictness {
-    /// No entry is imported.
+    /// No entry is imported where one has a problem.
     AllOrNone,
     /// Rows without a problem are imported, the others reported. A table that cannot be read at all is refused.
     GoodRows,
 }
 
-/// Outcome of an import.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Imported {
-    /// Entries that were saved.
     pub saved: Vec<Saved>,
-    /// Problems of rows that were left out.
     pub left_out: Vec<Problem>,
 }
 
 /// Imports all entries of some files into the catalogue. A file is a study file, TOML with tables of a study file or,
 /// for subjects and fabrics, CSV with the same keys. A scan becomes a subject named after its file. `strictness`
 /// decides about files with problems.
-///
-/// # Errors
-/// All problems of the files, each with its line.
 pub fn import(store: &mut Store, part: Part, files: &[PathBuf], strictness: Strictness) -> Result<Imported> {
     match part {
         Part::Subject => {
@@ -74,7 +68,7 @@ pub fn import(store: &mut Store, part: Part, files: &[PathBuf], strictness: Stri
     }
 }
 
-/// Imports the entries that `read` finds in files. A file that cannot be read at all is refused.
+/// Refuses a file that cannot be read at all.
 fn import_entries<T: Stored>(
     store: &mut Store,
     files: &[PathBuf],
@@ -117,12 +111,10 @@ fn import_entries<T: Stored>(
     Ok(Imported { saved, left_out: wrong })
 }
 
-/// Entries of a file in which none has a problem.
 fn all_good<T>(entries: Vec<Placed<T>>) -> std::result::Result<Read<T>, Vec<Problem>> {
     Ok(Read { entries, problems: Vec::new() })
 }
 
-/// Reads the rows of a table as entries.
 fn read_rows<R: Entry, T: From<R>>(
     path: &Path,
     part: Part,
@@ -132,7 +124,7 @@ fn read_rows<R: Entry, T: From<R>>(
     Ok(Read { entries: entries.into_iter().map(|placed| placed.map(T::from)).collect(), problems })
 }
 
-/// Reads a person from a scan, named after its file.
+/// Name is that of the file.
 fn scanned(path: &Path, bytes: &[u8]) -> std::result::Result<Placed<ScannedPerson>, Vec<Problem>> {
     let name = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     let scan = ScanFile { file: SourceFile { name: name(path.file_name()), bytes: bytes.into() }, unit: None };
@@ -140,7 +132,7 @@ fn scanned(path: &Path, bytes: &[u8]) -> std::result::Result<Placed<ScannedPerso
     Ok(Placed { file: path.to_owned(), line: 1, name: name(path.file_stem()), entry })
 }
 
-/// Verifies entries on all cores, since building a body takes long.
+/// Uses all cores, since building a body takes long.
 fn verified<T: Stored>(entries: &[Placed<T>]) -> Vec<std::result::Result<Vec<String>, String>> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let share = entries.len().div_ceil(threads).max(1);

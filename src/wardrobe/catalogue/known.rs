@@ -20,22 +20,19 @@ use store::{Result, SizeKey, Store, StudyError, SubjectId};
 /// The twelve subjects of the thesis [T tables 6-1 to 6-4].
 const THESIS_SUBJECTS: &str = include_str!("../../../db/subjects.csv");
 
-/// A subject of the catalogue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SubjectRow {
-    /// Number of the revision's row in the database. The measurements of a revision never change.
     pub id: SubjectId,
-    /// Name in studies, the same in all revisions.
+    /// Same in all revisions.
     pub name: String,
-    /// Number of the revision, from 1.
+    /// Counts from 1.
     pub revision: i64,
-    /// Measurements of the body; for a scan, those taken on the scan.
+    /// Those taken on the scan, for a scan.
     pub measurements: Measurements,
-    /// Name of the scan's file; `None` where the body is built from measurements.
+    /// File name of the scan; `None` where the body is built from measurements.
     pub scan: Option<String>,
-    /// Pose; `None` for the pose in which the body is built or scanned.
+    /// `None` for the pose in which the body is built or scanned.
     pub pose: Option<Pose>,
-    /// Figures beside the standard body of the measurements.
     pub figures: Figures,
 }
 
@@ -86,13 +83,13 @@ pub fn known(connection: Option<&Connection>) -> Result<Known> {
     })
 }
 
-/// Entries that were removed but stay stored, such as `subject male-ii`.
+/// Removed entries that stay stored, such as `subject male-ii`.
 fn hidden(connection: &Connection) -> Result<BTreeSet<String>> {
     let sql = "SELECT part || ' ' || name FROM catalogue_entry WHERE is_retired";
     Ok(connection.prepare_cached(sql)?.query_map([], |row| row.get(0))?.collect::<rusqlite::Result<_>>()?)
 }
 
-/// The current styles with their current sizes, by name.
+/// Current styles with their current sizes, by name.
 fn styles(connection: &Connection) -> Result<BTreeMap<String, KnownStyle>> {
     let sql = format!(
         "SELECT style.name, seam_file, seams, size.name, pattern_file, pattern, unit
@@ -110,23 +107,16 @@ fn styles(connection: &Connection) -> Result<BTreeMap<String, KnownStyle>> {
     Ok(styles)
 }
 
-/// Files of a style and of one of its sizes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StyleFiles {
-    /// Name of the style.
     pub style: String,
-    /// Seam file; `None` where the pattern holds its seams.
+    /// `None` where the pattern holds its seams.
     pub seams: Option<SourceFile>,
-    /// Pattern of the size.
     pub pattern: SourceFile,
     /// Unit of the pattern, where its file names none.
     pub unit: Option<String>,
 }
 
-/// Reads the files of a style and a size by the numbers of their revisions.
-///
-/// # Errors
-/// When there is no such revision.
 pub fn read_style(connection: &Connection, SizeKey { style, size }: SizeKey) -> Result<StyleFiles> {
     let sql = "SELECT style.name, seam_file, seams, pattern_file, pattern, unit FROM style, size
         WHERE style_id = ? AND size_id = ?";
@@ -136,7 +126,6 @@ pub fn read_style(connection: &Connection, SizeKey { style, size }: SizeKey) -> 
     })?)
 }
 
-/// Reads a fabric by the number of its revision.
 pub fn read_fabric(connection: &Connection, id: i64) -> Result<Fabric> {
     let sql = format!("SELECT name, source, {} FROM fabric WHERE fabric_id = ?", columns(&FABRIC_NUMBERS));
     Ok(connection.prepare_cached(&sql)?.query_row([id], |row| {
@@ -146,7 +135,6 @@ pub fn read_fabric(connection: &Connection, id: i64) -> Result<Fabric> {
     })?)
 }
 
-/// The current subjects, by name.
 fn stored_subjects(connection: &Connection) -> Result<Vec<SubjectRow>> {
     let sql = format!(
         "{} JOIN catalogue_entry AS entry USING (name, revision)
@@ -158,7 +146,6 @@ fn stored_subjects(connection: &Connection) -> Result<Vec<SubjectRow>> {
     Ok(rows)
 }
 
-/// Query with the columns that [`subject_row`] reads.
 fn select_subject() -> String {
     let scan = "(SELECT file FROM scan WHERE scan.subject_id = subject.subject_id)";
     format!("SELECT subject_id, name, revision, sex, {scan}, pose, figure, {} FROM subject", columns(&MEASUREMENTS))
@@ -176,7 +163,7 @@ fn subject_row(row: &Row<'_>) -> rusqlite::Result<SubjectRow> {
     Ok(SubjectRow { id, name, revision, measurements, scan, pose, figures })
 }
 
-/// Scan of a subject's revision; `None` where the body is built from measurements.
+/// `None` where the body is built from measurements.
 fn stored_scan(connection: &Connection, id: SubjectId) -> Result<Option<ScanFile>> {
     let sql = "SELECT file, unit, mesh FROM scan WHERE subject_id = ?";
     let row = |row: &Row<'_>| {
@@ -188,16 +175,11 @@ fn stored_scan(connection: &Connection, id: SubjectId) -> Result<Option<ScanFile
     Ok(connection.prepare_cached(sql)?.query_row([id.0], row).optional()?)
 }
 
-/// Person of a subject's revision.
-///
-/// # Errors
-/// When no revision has the number.
 pub fn person(store: &Store, id: SubjectId) -> Result<Person> {
     let SubjectRow { measurements, pose, figures, .. } = subject_revision(store, id)?;
     Ok(Person { measurements, scan: stored_scan(&store.reader, id)?, pose, figures })
 }
 
-/// The built-in subjects, by name.
 pub(super) fn thesis_subjects() -> Result<Vec<(String, Measurements)>> {
     let path = std::path::Path::new("db/subjects.csv");
     let read = table::read::<Measurements>(path, Part::Subject, THESIS_SUBJECTS.as_bytes());
@@ -219,10 +201,8 @@ pub(super) fn missing(connection: &Connection, part: Part, name: &str) -> Result
     Ok(StudyError::NotFound { what: part.as_str(), name: name.to_owned(), known })
 }
 
-/// Removes an entry. A built-in entry, and one that jobs use, is only hidden. A style is removed with its sizes.
-///
-/// # Errors
-/// When no entry has the name, jobs wait or run with it, or the database is open read-only.
+/// Only hides a built-in entry, and one that jobs use. Removes a style with its sizes. Fails where jobs wait or run
+/// with the entry.
 pub fn remove(transaction: &Transaction<'_>, part: Part, name: &str) -> Result<Removed> {
     if revision::current(transaction, part, name)?.is_none_or(|current| current.is_retired) {
         return Err(missing(transaction, part, name)?);
@@ -268,7 +248,6 @@ pub fn remove(transaction: &Transaction<'_>, part: Part, name: &str) -> Result<R
     Ok(Removed { part, name: name.to_owned(), jobs, is_hidden })
 }
 
-/// Names of a style's sizes that were not removed.
 fn sizes(transaction: &Transaction<'_>, style: &str) -> Result<Vec<String>> {
     let sql = "SELECT DISTINCT style || '/' || size FROM v_sizes WHERE style = ? AND NOT is_retired";
     let mut statement = transaction.prepare_cached(sql)?;
@@ -276,18 +255,12 @@ fn sizes(transaction: &Transaction<'_>, style: &str) -> Result<Vec<String>> {
     Ok(sizes)
 }
 
-/// The subjects of the catalogue, by name.
-///
-/// # Errors
-/// When the database cannot be read.
+/// Sorted by name.
 pub fn subjects(store: &Store) -> Result<Vec<SubjectRow>> {
     stored_subjects(&store.reader)
 }
 
-/// A subject's revision, current or not.
-///
-/// # Errors
-/// When no revision has the number.
+/// Current or earlier revision.
 pub fn subject_revision(store: &Store, id: SubjectId) -> Result<SubjectRow> {
     let sql = format!("{} WHERE subject_id = ?", select_subject());
     let found = store.reader.prepare_cached(&sql)?.query_row([id.0], subject_row);
@@ -299,10 +272,6 @@ pub fn subject_revision(store: &Store, id: SubjectId) -> Result<SubjectRow> {
     })
 }
 
-/// Returns the current revision of a subject of the catalogue.
-///
-/// # Errors
-/// When no subject has the name.
 pub fn subject(store: &Store, name: &str) -> Result<Person> {
     match known(Some(&store.reader))?.subjects.remove(name) {
         Some(person) => Ok(person),

@@ -42,11 +42,8 @@ pub use sizes::{SizeRow, sizes, style_of, workpiece, workpiece_of};
 pub use spec_sheet::{SpecGiven, keep_spec, spec};
 pub use style::{StyleGiven, save_seams, save_size, save_style};
 
-/// Opens a database with a catalogue. Without `readonly` it is created where it is missing, and brought up to date with
-/// the built-in fabrics and subjects.
-///
-/// # Errors
-/// When the file cannot be opened, is no database, or was written by a newer program.
+/// Opens a database with a catalogue. Creates it and adds the built-in fabrics and subjects where they are missing,
+/// unless `readonly`.
 pub fn open(path: &Path, readonly: bool) -> Result<Store> {
     let mut store = Store::open(path, readonly)?;
     if !readonly {
@@ -55,7 +52,6 @@ pub fn open(path: &Path, readonly: bool) -> Result<Store> {
     Ok(store)
 }
 
-/// A part of the catalogue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// Bodies: measurements or a scan.
@@ -64,13 +60,11 @@ pub enum Part {
     Style,
     /// A pattern of a style; named `STYLE/SIZE`.
     Size,
-    /// Cloths with their mechanical numbers.
     Fabric,
 }
 
 impl Part {
     /// Name in SQL and in messages.
-    #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Subject => "subject",
@@ -90,24 +84,16 @@ impl fmt::Display for Part {
 /// Condition for saving an entry: its name is free, taken, or either.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// The name must be free.
     Add,
-    /// The name must be taken.
     Edit,
-    /// The name may be free or taken.
     Import,
 }
 
-/// Outcome of saving an entry.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Saved {
-    /// Part of the catalogue.
     pub part: Part,
-    /// Name of the entry.
     pub name: String,
-    /// Number of the revision that is now current.
     pub revision: i64,
-    /// Change made to the catalogue.
     pub deed: Deed,
     /// Values that are possible but rare.
     pub doubts: Vec<String>,
@@ -115,16 +101,13 @@ pub struct Saved {
     pub notes: Vec<String>,
 }
 
-/// Change that saving an entry made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Deed {
     /// The entry is new, or was removed before.
     Added,
-    /// The entry has a new revision.
     Revised,
     /// An earlier revision has the same content and is current again.
     Restored,
-    /// The current revision has the same content.
     Unchanged,
 }
 
@@ -140,16 +123,12 @@ impl fmt::Display for Saved {
     }
 }
 
-/// Outcome of removing an entry.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Removed {
-    /// Part of the catalogue.
     pub part: Part,
-    /// Name of the entry.
     pub name: String,
-    /// Number of jobs that use the entry.
     pub jobs: i64,
-    /// True where the entry is hidden and stays stored.
+    /// Hidden entries stay stored.
     pub is_hidden: bool,
 }
 
@@ -171,7 +150,6 @@ trait Stored: Sync {
     /// Checks that the entry is possible. Returns doubts about rare values.
     fn verify(&self) -> std::result::Result<Vec<String>, String>;
 
-    /// Stores the entry as the current revision of its name.
     fn store(&self, transaction: &Transaction<'_>, name: &str) -> Result<revision::Revision>;
 }
 
@@ -206,12 +184,10 @@ impl Stored for Fabric {
     }
 }
 
-/// Error for an entry that cannot be saved.
 fn refused(part: Part, name: &str, problems: Vec<String>) -> StudyError {
     StudyError::Refused { what: part.as_str(), name: name.to_owned(), problems }
 }
 
-/// Checks the name of an entry.
 fn check_name(name: &str) -> std::result::Result<(), String> {
     if is_line(name) && !name.contains('/') {
         return Ok(());
@@ -232,7 +208,6 @@ fn is_line(name: &str) -> bool {
     !name.is_empty() && name.trim() == name && name.chars().count() <= 64 && !name.chars().any(char::is_control)
 }
 
-/// Stores a revision with `store`, if the mode allows it.
 fn save(
     transaction: &Transaction<'_>,
     part: Part,
@@ -258,23 +233,18 @@ fn save(
     Ok(Saved { part, name: name.to_owned(), revision: after.number, deed, doubts: vec![], notes: vec![] })
 }
 
-/// A scan that becomes a subject.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ScanGiven {
-    /// Mesh file: OBJ, PLY, STL or GLB.
+    /// OBJ, PLY, STL or GLB.
     pub file: PathBuf,
-    /// Unit of the file; `None` to infer it from the height.
+    /// `None` to infer it from the height.
     pub unit: Option<LengthUnit>,
-    /// Sex; `None` to infer it from the shape.
+    /// `None` to infer it from the shape.
     pub sex: Option<Sex>,
 }
 
-/// Saves a subject. Given values replace those that it has; a new subject has no others. The body is built, to check
-/// that it is possible.
-///
-/// # Errors
-/// When a value or the body is impossible, the name is taken (`Add`) or unknown (`Edit`), the subject is a scan, or the
-/// store is read-only.
+/// Given values replace those that the subject has. The body is built, to check that it is possible. Fails for a
+/// subject that is a scan.
 pub fn save_subject(store: &mut Store, mode: Mode, name: &str, given: &[Given]) -> Result<Saved> {
     let base = match mode {
         Mode::Edit => Some(subject(store, name)?),
@@ -288,11 +258,6 @@ pub fn save_subject(store: &mut Store, mode: Mode, name: &str, given: &[Given]) 
     save_entry(store, mode, name, &Person::from(measurements))
 }
 
-/// Saves a subject whose body is a scan, with the measurements taken on the scan.
-///
-/// # Errors
-/// When the scan cannot be read or wear garments, the name is taken (`Add`) or unknown (`Edit`), or the database is
-/// open read-only.
 pub fn save_scan(store: &mut Store, mode: Mode, name: &str, given: &ScanGiven) -> Result<Saved> {
     let ScanGiven { file, unit, sex } = given;
     let scan = ScanFile { file: SourceFile::read(file)?, unit: *unit };
@@ -300,10 +265,7 @@ pub fn save_scan(store: &mut Store, mode: Mode, name: &str, given: &ScanGiven) -
     Ok(Saved { notes, ..save_entry(store, mode, name, &person)? })
 }
 
-/// Saves a fabric. Given values replace those that it has, or else those of the fabric `like`.
-///
-/// # Errors
-/// As [`save_subject`].
+/// Given values replace those that the fabric has, or else those of the fabric `like`.
 pub fn save_fabric(store: &mut Store, mode: Mode, name: &str, like: Option<&str>, given: &[Given]) -> Result<Saved> {
     let base = match (like, mode) {
         (Some(like), _) => Some(Fabric { name: name.to_owned(), ..cloth(store, Some(like))? }),
@@ -313,10 +275,7 @@ pub fn save_fabric(store: &mut Store, mode: Mode, name: &str, like: Option<&str>
     save_entry(store, mode, name, &entry_of(Part::Fabric, name, base.as_ref(), given)?)
 }
 
-/// Current revision of a fabric of the catalogue; of the default fabric where none is named.
-///
-/// # Errors
-/// When no fabric has the name.
+/// Current revision; that of the default fabric where none is named.
 pub fn cloth(store: &Store, name: Option<&str>) -> Result<Fabric> {
     let name = name.unwrap_or(USUAL);
     match known(Some(&store.reader))?.fabrics.remove(name) {
@@ -325,7 +284,6 @@ pub fn cloth(store: &Store, name: Option<&str>) -> Result<Fabric> {
     }
 }
 
-/// Returns an entry in which given values replace those of `base`.
 fn entry_of<T: Entry>(part: Part, name: &str, base: Option<&T>, given: &[Given]) -> Result<T> {
     let texts = |problems: Vec<Given>| problems.into_iter().map(|(_, problem)| problem).collect();
     filled(base, name, given).map_err(|problems| refused(part, name, texts(problems)))
@@ -341,10 +299,8 @@ fn save_entry<T: Stored>(store: &mut Store, mode: Mode, name: &str, entry: &T) -
     Ok(Saved { doubts, ..saved })
 }
 
-/// Removes an entry. A built-in entry, and one that jobs use, is only hidden. A style is removed with its sizes.
-///
-/// # Errors
-/// When no entry has the name, jobs wait or run with it, or the database is open read-only.
+/// Only hides a built-in entry, and one that jobs use. Removes a style with its sizes. Fails where jobs wait or run
+/// with the entry.
 pub fn remove(store: &mut Store, part: Part, name: &str) -> Result<Removed> {
     let transaction = store::write(store.writer()?)?;
     let removed = known::remove(&transaction, part, name)?;

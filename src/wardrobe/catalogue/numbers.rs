@@ -4,12 +4,10 @@ use rusqlite::Row;
 
 use spec::entry::Field;
 
-/// Columns of fields, for SQL.
 pub(super) fn columns<T>(fields: &[Field<T>]) -> String {
     fields.iter().map(|field| field.key).collect::<Vec<_>>().join(", ")
 }
 
-/// Reads fields from the columns of a row from `first` on.
 pub(super) fn read_numbers<T>(row: &Row<'_>, first: usize, fields: &[Field<T>], entry: &mut T) -> rusqlite::Result<()> {
     for (k, field) in fields.iter().enumerate() {
         field.set(entry, row.get(first + k)?);

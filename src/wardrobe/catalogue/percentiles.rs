@@ -7,20 +7,16 @@ const ORDINARY: (f64, f64) = (1.0, 99.0);
 
 /// Percentile, 0 to 100, of a value among adults of a sex [Gordon 2014]. The value is in the unit of its key; `None`
 /// for a key that is no measurement of a subject.
-#[must_use]
 pub fn percentile(sex: Sex, key: &str, value: f64) -> Option<f64> {
     let dimension = Dimension::ALL.into_iter().find(|dimension| dimension.key() == key)?;
     Some(body::percentile(sex, dimension, value / dimension.per_si(), None, None))
 }
 
-/// True if a percentile is so rare that the value may be a mistake.
-#[must_use]
 pub fn is_doubtful(percentile: f64) -> bool {
     !(ORDINARY.0..=ORDINARY.1).contains(&percentile)
 }
 
 /// A percentile in at most four characters: `P63`, `<P1`, `>P99`.
-#[must_use]
 pub fn percentile_text(percentile: f64) -> String {
     if percentile < ORDINARY.0 {
         "<P1".to_owned()
@@ -31,8 +27,6 @@ pub fn percentile_text(percentile: f64) -> String {
     }
 }
 
-/// Doubts about measurements of a subject that are possible but rare, in words.
-#[must_use]
 pub fn doubts(subject: &Measurements) -> Vec<String> {
     body::plausibility(subject).iter().map(ToString::to_string).collect()
 }

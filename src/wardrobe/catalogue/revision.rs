@@ -23,33 +23,28 @@ pub enum By {
     User,
 }
 
-/// A revision of an entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Revision {
     /// Number of the row in the table of the entry's part.
     pub id: i64,
-    /// Number of the revision, from 1.
+    /// Counts from 1.
     pub number: i64,
-    /// True where the revision was added just now.
     pub is_new: bool,
 }
 
-/// The current revision of an entry.
 pub(super) struct Current {
-    /// Number of the revision.
     pub number: i64,
     /// True where the entry was removed.
     pub is_retired: bool,
 }
 
-/// The current revision of an entry; `None` where there never was one.
+/// `None` where there never was one.
 pub(super) fn current(transaction: &Transaction<'_>, part: Part, name: &str) -> Result<Option<Current>> {
     let sql = "SELECT revision, is_retired FROM catalogue_entry WHERE part = ? AND name = ?";
     let row = |row: &rusqlite::Row<'_>| Ok(Current { number: row.get(0)?, is_retired: row.get(1)? });
     Ok(transaction.prepare_cached(sql)?.query_row([part.as_str(), name], row).optional()?)
 }
 
-/// Makes a revision current, if its origin allows that.
 fn make_current(transaction: &Transaction<'_>, part: Part, name: &str, revision: Revision, by: By) -> Result<()> {
     transaction
         .prepare_cached(
@@ -65,13 +60,13 @@ fn make_current(transaction: &Transaction<'_>, part: Part, name: &str, revision:
     Ok(())
 }
 
-/// Revision that a query finds; its columns are id and number.
+/// Columns of the query are id and number.
 fn found(transaction: &Transaction<'_>, sql: &str, parameters: &[&dyn ToSql]) -> Result<Option<Revision>> {
     let row = |row: &rusqlite::Row<'_>| Ok(Revision { id: row.get(0)?, number: row.get(1)?, is_new: false });
     Ok(transaction.prepare_cached(sql)?.query_row(parameters, row).optional()?)
 }
 
-/// Revision that a statement adds; it returns id and number.
+/// Statement returns id and number.
 fn added(transaction: &Transaction<'_>, sql: &str, parameters: &[&dyn ToSql]) -> Result<Revision> {
     let row = |row: &rusqlite::Row<'_>| Ok(Revision { id: row.get(0)?, number: row.get(1)?, is_new: true });
     Ok(transaction.prepare_cached(sql)?.query_row(parameters, row)?)
@@ -126,7 +121,7 @@ pub fn fabric(transaction: &Transaction<'_>, cloth: &Fabric, by: By) -> Result<R
     Ok(revision)
 }
 
-/// Adds a revision of a subject or a fabric. Texts and numbers come with the names of their columns.
+/// Texts and numbers come with the names of their columns.
 fn insert(
     transaction: &Transaction<'_>,
     table: &str,

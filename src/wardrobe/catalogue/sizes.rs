@@ -10,22 +10,15 @@ use spec::patterns;
 use store::files::SourceFile;
 use store::{JobId, Result, SizeKey, Store, StudyError};
 
-/// A size of a style of the catalogue.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SizeRow {
-    /// Numbers of the revisions of style and size.
     pub key: SizeKey,
-    /// Name of the style.
     pub style: String,
-    /// Number of the style's revision.
     pub style_revision: i64,
-    /// Name of the size within the style.
     pub size: String,
-    /// Number of the size's revision.
     pub revision: i64,
-    /// Name of the pattern file.
     pub pattern_file: String,
-    /// Name of the seam file; `None` where the pattern holds its seams.
+    /// `None` where the pattern holds its seams.
     pub seam_file: Option<String>,
     /// Unit of the pattern, where its file names none.
     pub unit: Option<String>,
@@ -33,10 +26,7 @@ pub struct SizeRow {
     pub unconfirmed: usize,
 }
 
-/// The current sizes of all styles, by style, from the smallest to the largest.
-///
-/// # Errors
-/// When the database cannot be read.
+/// Current sizes of all styles, by style, from the smallest to the largest.
 pub fn sizes(store: &Store) -> Result<Vec<SizeRow>> {
     let sql = format!(
         "SELECT style_id, size_id, style.name, style.revision, size.name, size.revision, pattern_file,
@@ -66,10 +56,6 @@ pub fn sizes(store: &Store) -> Result<Vec<SizeRow>> {
     Ok(sizes)
 }
 
-/// Pattern and seam file of a size, for work on its seams.
-///
-/// # Errors
-/// When there are no such revisions.
 pub fn workpiece(store: &Store, key: SizeKey) -> Result<Workpiece> {
     let sql = "SELECT pattern_file, pattern, seam_file, seams, size.name, unit
         FROM size, style WHERE size_id = ? AND style_id = ?";
@@ -86,10 +72,6 @@ pub fn workpiece(store: &Store, key: SizeKey) -> Result<Workpiece> {
     found.ok_or_else(|| StudyError::NotFound { what: "revision of a size", name: key.size.to_string(), known: vec![] })
 }
 
-/// Pattern and seam file that a job was made from.
-///
-/// # Errors
-/// When there is no such job.
 pub fn workpiece_of(store: &Store, id: JobId) -> Result<Workpiece> {
     let sql = "SELECT style_id, size_id FROM job WHERE job_id = ?";
     let row = |row: &Row<'_>| Ok(SizeKey { style: row.get(0)?, size: row.get(1)? });
@@ -98,10 +80,6 @@ pub fn workpiece_of(store: &Store, id: JobId) -> Result<Workpiece> {
     workpiece(store, found.ok_or_else(missing)?)
 }
 
-/// The style that a job was made from.
-///
-/// # Errors
-/// When there is no such job.
 pub fn style_of(store: &Store, id: JobId) -> Result<Style> {
     let Workpiece { pattern, seams, size, unit } = workpiece_of(store, id)?;
     patterns::read_style(&pattern, seams.as_ref(), Some(&size), unit)

@@ -20,17 +20,15 @@ use store::{Result, Store, StudyError, now_ms};
 /// A sheet that is given for a style, or answers for the one that it has.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SpecGiven {
-    /// File of the sheet. `None` for the one that the style has.
+    /// `None` for the sheet that the style has.
     pub file: Option<PathBuf>,
-    /// Name of the sheet in its workbook. `None` for the first with a table.
+    /// Name in the workbook; `None` for the first sheet with a table.
     pub sheet: Option<String>,
-    /// Unit of the sheet. `None` for the one that it says.
+    /// `None` for the unit that the sheet says.
     pub unit: Option<Unit>,
-    /// Answers to questions about rows.
     pub answers: Vec<Answer>,
 }
 
-/// A sheet as the catalogue keeps it.
 struct Kept {
     file: SourceFile,
     sheet: String,
@@ -41,10 +39,6 @@ struct Kept {
 
 /// Reads a sheet, or the sheet that a style has with further answers, and keeps it with the style and the lengths of all
 /// its sizes. Returns the specification beside the pattern; rows that are asked for are kept too.
-///
-/// # Errors
-/// When the style or its sheet is not there, the sheet or a pattern cannot be read, an answer fits no row, or the database
-/// is open read-only.
 pub fn keep_spec(store: &mut Store, style: &str, given: &SpecGiven) -> Result<SpecReport> {
     let rows = rows_of(store, style)?;
     let (file, sheet, unit, mut answers) = match (&given.file, kept(store, style)?) {
@@ -74,9 +68,6 @@ pub fn keep_spec(store: &mut Store, style: &str, given: &SpecGiven) -> Result<Sp
 
 /// Specification of a style beside its pattern, with the lengths worn by a subject: the one that is named, or the only
 /// one. Sizes that have changed are measured again first, unless the database is read-only.
-///
-/// # Errors
-/// When the style or its sheet is not there, or a pattern cannot be read.
 pub fn spec(store: &mut Store, style: &str, subject: Option<&str>) -> Result<SpecReport> {
     let rows = rows_of(store, style)?;
     if rows.is_empty() {
@@ -117,7 +108,7 @@ pub fn spec(store: &mut Store, style: &str, subject: Option<&str>) -> Result<Spe
     })
 }
 
-/// The current sizes of a style, from the smallest to the largest.
+/// Current sizes, from the smallest to the largest.
 fn rows_of(store: &Store, style: &str) -> Result<Vec<SizeRow>> {
     let rows: Vec<SizeRow> = sizes(store)?.into_iter().filter(|row| row.style == style).collect();
     if rows.is_empty() {
@@ -126,7 +117,6 @@ fn rows_of(store: &Store, style: &str) -> Result<Vec<SizeRow>> {
     Ok(rows)
 }
 
-/// The sheet of a style. `None` where it has none.
 fn kept(store: &Store, style: &str) -> Result<Option<Kept>> {
     let sql = "SELECT file, bytes, sheet, unit, unit_from, answers FROM spec_sheet WHERE style = ?";
     let row = |row: &Row<'_>| {
@@ -217,7 +207,6 @@ fn write_flats(transaction: &Transaction<'_>, rows: &[SizeRow], found: &Compared
     Ok(())
 }
 
-/// Rows of a sheet that are asked for.
 fn asked(store: &Store, style: &str) -> Result<Vec<AskedRow>> {
     let sql = "SELECT code, description, asked, candidates FROM spec_row WHERE style = ? AND matched = 'asked'
         ORDER BY position";
@@ -233,7 +222,6 @@ fn asked(store: &Store, style: &str) -> Result<Vec<AskedRow>> {
     Ok(store.reader.prepare_cached(sql)?.query_map([style], row)?.collect::<rusqlite::Result<_>>()?)
 }
 
-/// Lines of a specification, and remarks on what is worn.
 struct Worn {
     lines: Vec<SpecLine>,
     notes: Vec<String>,

@@ -20,7 +20,6 @@ struct Bench {
 }
 
 impl Bench {
-    /// A database with a T-shirt in three sizes.
     fn new() -> Self {
         let folder = tempfile::tempdir().expect("a folder");
         let store = open(&folder.path().join("toile.sqlite"), false).expect("a new database");
@@ -40,7 +39,6 @@ impl Bench {
         self.folder.path().join(name)
     }
 
-    /// Pattern of a drafted size under a name.
     fn size(&self, name: &str, drafted: &str) -> (Option<String>, PathBuf) {
         (Some(name.to_owned()), self.path(&format!("tshirt-{}.dxf", drafted.to_lowercase())))
     }

@@ -17,7 +17,6 @@ use store::{InOrigin, Origin, Problem, Result, Store, StudyError};
 /// Parts of a style or a size that are given; an edit keeps the others.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct StyleGiven {
-    /// Seam file of the style.
     pub seams: Option<PathBuf>,
     /// True to propose seams for a new style that has neither a seam file nor patterns with seams.
     pub is_proposed: bool,
@@ -30,15 +29,12 @@ pub struct StyleGiven {
 /// Name of the size of a pattern that names no size.
 const UNNAMED: &str = "ONE";
 
-/// Seams to save with a style.
 enum Seams {
-    /// The seams that the style has.
     Kept,
-    /// The seams of a file; `None` for those that the patterns hold.
+    /// Seams of a file; `None` for those that the patterns hold.
     Given(Option<SourceFile>),
 }
 
-/// A style to be stored.
 struct Draft {
     name: String,
     seams: Seams,
@@ -46,10 +42,6 @@ struct Draft {
 }
 
 /// Saves a style: its seam file and its sizes. The seams must fit every size, given now or earlier.
-///
-/// # Errors
-/// When a file cannot be read or sewn, the name is taken (`Add`) or unknown (`Edit`), or the database is open
-/// read-only.
 pub fn save_style(store: &mut Store, mode: Mode, name: &str, given: &StyleGiven) -> Result<Vec<Saved>> {
     check_name(name).map_err(|problem| refused(Part::Style, name, vec![problem]))?;
     let sizes = sizes_given(store, name, given)?;
@@ -87,10 +79,7 @@ fn proposed(style: &str, sizes: &[KnownSize]) -> Result<SourceFile> {
     Workpiece { pattern, seams: None, size: size.name.clone(), unit: unit_of(unit) }.proposed_for(style, drawn)
 }
 
-/// Replaces the seams of a style of the catalogue. The new ones must fit every size.
-///
-/// # Errors
-/// As [`save_style`].
+/// New seams must fit every size.
 pub fn save_seams(store: &mut Store, name: &str, seams: &SourceFile) -> Result<Vec<Saved>> {
     let seams = Seams::Given(Some(seams.clone()));
     store_style(store, Mode::Edit, Draft { name: name.to_owned(), seams, sizes: vec![] })
@@ -107,10 +96,7 @@ fn store_style(store: &mut Store, mode: Mode, draft: Draft) -> Result<Vec<Saved>
     Ok(saved)
 }
 
-/// Saves a size, named `STYLE/SIZE`, of a style of the catalogue.
-///
-/// # Errors
-/// As [`save_style`].
+/// Saves a size, named `STYLE/SIZE`.
 pub fn save_size(store: &mut Store, mode: Mode, name: &str, given: &StyleGiven) -> Result<Saved> {
     let refuse = |problem: &str| refused(Part::Size, name, vec![problem.to_owned()]);
     let (style, size) = name.split_once('/').ok_or_else(|| refuse("its name; accepted: STYLE/SIZE"))?;
@@ -239,7 +225,7 @@ fn seams_of(store: &Store, style: &str) -> Result<Option<Option<SourceFile>>> {
     Ok(store.reader.prepare_cached(sql)?.query_row([style], row).optional()?)
 }
 
-/// The current sizes of a style, from the smallest to the largest.
+/// Current sizes, from the smallest to the largest.
 fn sizes_of(store: &Store, style: &str) -> Result<Vec<KnownSize>> {
     let sql = "SELECT size.name, pattern_file, pattern, unit
         FROM size JOIN catalogue_entry AS entry
@@ -264,26 +250,24 @@ pub(super) const CURRENT_SIZES: &str = "FROM size
         AND styled.revision = style.revision AND NOT styled.is_retired
     ORDER BY style.name, size_id";
 
-/// Seam file from its two columns; the name is empty for a style without one.
+/// Empty name stands for a style without seam file.
 pub(super) fn seam_file(name: String, text: String) -> Option<SourceFile> {
     (!name.is_empty()).then(|| SourceFile { name, bytes: text.into_bytes().into() })
 }
 
-/// Draft of a style from a garment of a file.
 fn draft(part: Part, name: String, sewn: Sewn) -> Draft {
     let Sewn { seams, unit, sizes } = sewn;
     let seams = if part == Part::Style { Seams::Given(seams) } else { Seams::Kept };
     Draft { name, seams, sizes: sizes.into_iter().map(|size| KnownSize { size, unit: unit.clone() }).collect() }
 }
 
-/// Names of the sizes in a pattern file.
 fn sizes_in(pattern: &SourceFile, unit: Option<&str>) -> Result<Vec<String>> {
     let read = source::read(&pattern.bytes, &pattern.name, unit.and_then(patterns::unit_of));
     let file = read.origin(Origin::Pattern)?;
     Ok(file.sizes().into_iter().map(str::to_owned).collect())
 }
 
-/// Stores a draft. The first mode is for the style with its seams, the second for its sizes.
+/// First mode is for the style with its seams, the second for its sizes.
 fn store_draft(transaction: &Transaction<'_>, [mode, of_sizes]: [Mode; 2], draft: &Draft) -> Result<Vec<Saved>> {
     let mut saved = Vec::new();
     if let Seams::Given(seams) = &draft.seams {

@@ -13,11 +13,8 @@ use spec::file::Placed;
 use spec::{Given, decimal};
 use store::{Problem, nearest};
 
-/// Entries read from a file.
 pub(super) struct Read<T> {
-    /// Entries without a problem.
     pub entries: Vec<Placed<T>>,
-    /// Problems of the other rows.
     pub problems: Vec<Problem>,
 }
 
@@ -32,10 +29,7 @@ const BODIES: [(&str, &str); 3] = [
     ("figure", "a study says the figures of its subjects"),
 ];
 
-/// Reads a table. Empty cells are no values.
-///
-/// # Errors
-/// When the file is no table, or a heading is wrong.
+/// Empty cells are no values.
 pub(super) fn read<T: Entry>(path: &Path, part: Part, bytes: &[u8]) -> Result<Read<T>, Vec<Problem>> {
     let mut rows = table::rows(text_of(path, bytes)?).into_iter();
     let head = rows.next().unwrap_or(Row { line: 1, cells: vec![] });
@@ -102,10 +96,7 @@ impl Column {
         found.unwrap_or_else(|| unconverted(heading))
     }
 
-    /// Value of a cell, in the unit of the key.
-    ///
-    /// # Errors
-    /// Of a column in another unit, the text that is no number or the number that is not accepted, in its own unit.
+    /// Value in the unit of the key. An error tells the number in the unit of the column.
     fn value<T: Entry>(&self, cell: &str) -> Result<String, String> {
         let mut fields = T::fields().iter().chain(T::sheets().iter().map(|sheet| &sheet.field));
         let Some(field) = fields.find(|field| field.key == self.key && self.factor != 1.0) else {
@@ -128,7 +119,6 @@ impl Column {
     }
 }
 
-/// True if a column holds the names of entries.
 fn is_name(part: Part, column: &str) -> bool {
     column == part.as_str() || NAMES.contains(&column)
 }
@@ -154,7 +144,6 @@ fn header_problems<T: Entry>(path: &Path, part: Part, line: usize, header: &[&st
     problems.into_iter().map(|message| Problem::at(path, line, message)).collect()
 }
 
-/// Name and entry of a row.
 fn row<T: Entry>(
     part: Part,
     columns: &[Column],

@@ -13,29 +13,22 @@ use store::{InOrigin, Origin, Result};
 /// Start of a proposal's note on pieces that it leaves out.
 const NOTE: &str = "left out: ";
 
-/// Assumptions on a size of a pattern.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Assumed {
     /// Sentences on the line that is sewn, the unit, seams that nobody confirmed and questions that nobody answered.
     pub told: Vec<String>,
-    /// Pieces that are drawn and not sewn.
     pub left_out: Vec<LeftOut>,
 }
 
 /// Pieces that are drawn and not sewn, for one reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LeftOut {
-    /// Names of the pieces, each once.
+    /// Each name once.
     pub pieces: Vec<String>,
-    /// Reason, in words.
     pub why: String,
 }
 
 impl Workpiece {
-    /// Assumptions on the pattern, and the pieces that its seam file does not sew.
-    ///
-    /// # Errors
-    /// When a file cannot be read, or seams and pattern do not fit each other.
     pub fn assumed(&self) -> Result<Assumed> {
         let Some(file) = self.seams.as_ref().filter(|_| !self.pattern.holds_seams()) else {
             let told = vec!["the pattern holds its seams: its edges are sewn as they are drawn".to_owned()];
@@ -89,7 +82,6 @@ fn open(asked: &Question) -> String {
     format!("open question: {}{taken}", asked.text)
 }
 
-/// Reason in the note that leaves a piece out: what follows the names.
 fn why<'n>(notes: &'n [String], piece: &str) -> Option<&'n str> {
     let quoted = format!("`{piece}`");
     let note = notes.iter().filter_map(|note| note.strip_prefix(NOTE)).find(|note| note.contains(&quoted))?;

@@ -14,47 +14,35 @@ use spec::patterns::{self, Nest, Style, Unit};
 use store::files::SourceFile;
 use store::{Access, InOrigin, Origin, Result};
 
-/// Edge length of the mesh that a check makes, mm.
+/// Edge length of the mesh that a check makes.
 pub const CHECK_EDGE_MM: f64 = 15.0;
 
-/// Outcome of a check of one size of a garment.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct SizeCheck {
-    /// Name of the garment in the study.
     pub garment: String,
-    /// Name of the size, such as `M`.
     pub size: String,
-    /// Number of pieces.
     pub pieces: usize,
-    /// Number of seams.
     pub seams: usize,
-    /// Number of measurements.
     pub measurements: usize,
-    /// Pattern girths that decide the fit, by level of the body, mm.
+    /// Pattern girths that decide the fit, by level of the body.
     pub fit_mm: Vec<(String, f64)>,
     /// Vertices of the mesh at [`CHECK_EDGE_MM`].
     pub vertices: usize,
-    /// Least angle of the mesh's triangles, degrees.
+    /// Least angle of the mesh's triangles.
     pub min_angle_deg: f64,
-    /// Findings that a person should look at.
     pub findings: Vec<Finding>,
-    /// Reason why the size cannot be sewn or meshed.
     pub error: Option<String>,
 }
 
 impl SizeCheck {
     /// True if anything was found.
-    #[must_use]
     pub fn is_bad(&self) -> bool {
         self.error.is_some() || !self.findings.is_empty()
     }
 }
 
-/// Checks every size of every garment of a study, by the path of its file or folder. Subjects and fabrics that the file
-/// names come from `database`, if that exists.
-///
-/// # Errors
-/// Problems of the study file itself; a problem of a pattern is in the row of its size.
+/// Checks every size of every garment, by the path of the study file or its folder. Subjects and fabrics that the file
+/// names come from `database`, if that exists. A problem of a pattern is in the row of its size.
 pub fn check_study(path: &Path, database: &Path) -> Result<Vec<SizeCheck>> {
     let connection = if database.exists() { Some(store::open(database, Access::Read)?) } else { None };
     let study = Study::load(path, &catalogue::known(connection.as_ref())?)?;
@@ -66,10 +54,7 @@ pub fn check_study(path: &Path, database: &Path) -> Result<Vec<SizeCheck>> {
     Ok(study.garments.iter().flat_map(check).collect())
 }
 
-/// Checks every size of a pattern with its seam file.
-///
-/// # Errors
-/// When a file cannot be read; a problem of a size is in its row.
+/// A problem of a size is in its row.
 pub fn check_sizes(pattern: &Path, seams: Option<&Path>, unit: Option<Unit>) -> Result<Vec<SizeCheck>> {
     let source = SourceFile::read_pattern(pattern)?;
     let seams = seams.map(SourceFile::read).transpose()?;
@@ -83,7 +68,6 @@ pub fn check_sizes(pattern: &Path, seams: Option<&Path>, unit: Option<Unit>) -> 
     Ok(sewn.check(&sizes))
 }
 
-/// A garment whose sizes are checked.
 struct Sewn {
     garment: String,
     seams: Option<SourceFile>,
@@ -98,7 +82,7 @@ struct ReadSize<'a> {
 }
 
 impl Sewn {
-    /// Checks sizes, a row for each. Findings include lengths that leap from one size to the next.
+    /// Findings include lengths that leap from one size to the next.
     fn check(&self, sizes: &[SizeFile]) -> Vec<SizeCheck> {
         let (mut rows, mut read) = (Vec::new(), Vec::new());
         for (index, size) in sizes.iter().enumerate() {
@@ -148,7 +132,6 @@ impl Sewn {
     }
 }
 
-/// Findings of a pattern file and its seam file.
 pub(crate) fn findings_of(
     pattern: &SourceFile,
     seams: &SourceFile,
@@ -164,10 +147,6 @@ pub(crate) fn findings_of(
     Ok(check::findings(&pieces, &entries, &style))
 }
 
-/// Findings on a pattern and its seam file, by their paths.
-///
-/// # Errors
-/// As [`style`](spec::patterns::style).
 pub fn findings(pattern: &Path, seams: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<Finding>> {
     findings_of(&SourceFile::read_pattern(pattern)?, &SourceFile::read(seams)?, size, unit)
 }

@@ -17,33 +17,30 @@ use spec::patterns::{Nest, SizePieces, Unit};
 use store::files::SourceFile;
 use store::{InOrigin, Origin, Result};
 
-/// Greatest distance of a notch from the edge that it belongs to, m.
+/// Greatest distance of a notch from the edge that it belongs to.
 const NOTCH_M: f64 = 0.005;
 /// Confidence from which a proposed seam counts as sure.
 pub const SURE: f64 = 0.8;
 
-/// An edge of a piece, placed on the desk.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct DeskEdge {
     /// Number in the picture, from 1 counter-clockwise.
     pub number: usize,
-    /// Name in the seam file; `None` where the file does not name the edge.
+    /// `None` where the seam file does not name the edge.
     pub name: Option<String>,
-    /// Points, counter-clockwise, mm. `x` is to the wearer's right, `y` is positive for fronts, and the head is at the
+    /// Points, counter-clockwise. `x` is to the wearer's right, `y` is positive for fronts, and the head is at the
     /// origin.
     pub line_mm: Vec<[f64; 2]>,
-    /// Length of the sew line, mm.
+    /// Length of the sew line.
     pub length_mm: f64,
-    /// Name of the seam that the edge is in, if any.
     pub seam: Option<String>,
-    /// Places of notches, mm from the start of the edge.
+    /// Places from the start of the edge.
     pub notches_mm: Vec<f64>,
 }
 
 impl DeskEdge {
     /// Midpoint, mm, and there the unit normal into the piece. This points to the left, since edges run
     /// counter-clockwise.
-    #[must_use]
     pub fn middle(&self) -> [[f64; 2]; 2] {
         let mut rest_mm = self.length_mm / 2.0;
         for pair in self.line_mm.windows(2) {
@@ -60,23 +57,19 @@ impl DeskEdge {
     }
 }
 
-/// A piece, placed on the desk.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct DeskPiece {
-    /// Identifier of the piece in the seam file.
+    /// Identifier in the seam file.
     pub id: String,
-    /// Role in the garment.
     pub role: Role,
-    /// Counter-clockwise rotation from the drawing in the pattern file, degrees.
+    /// Counter-clockwise rotation from the drawing in the pattern file.
     pub turned_deg: f64,
     /// Edges, counter-clockwise; together they are the outline.
     pub edges: Vec<DeskEdge>,
 }
 
-/// A seam, with the lengths of its sides.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct DeskSeam {
-    /// Name of the seam in the seam file.
     pub name: String,
     /// Edges of the one side, in order: (index of the piece, index of the edge).
     pub a: Vec<(usize, usize)>,
@@ -84,9 +77,7 @@ pub struct DeskSeam {
     pub b: Vec<(usize, usize)>,
     /// True where both sides are sewn in their counter-clockwise direction.
     pub same_direction: bool,
-    /// Length of `a`, mm.
     pub a_mm: f64,
-    /// Length of `b`, mm.
     pub b_mm: f64,
     /// Confidence of the proposal, 0 to 1; `None` where a person has confirmed or made the seam.
     pub confidence: Option<f64>,
@@ -95,17 +86,13 @@ pub struct DeskSeam {
 /// Pieces and seams of a style, as they are drawn and edited.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Desk {
-    /// Pieces, placed on the desk.
     pub pieces: Vec<DeskPiece>,
-    /// Seams between edges of those pieces.
     pub seams: Vec<DeskSeam>,
     /// Names of the drawn pieces that the seam file leaves out.
     pub left_out: Vec<String>,
 }
 
 impl Desk {
-    /// Lays out the pieces and seams of a style.
-    #[must_use]
     pub fn of(style: &Style) -> Self {
         let seam_of = |edge: EdgeRef| {
             let found = style.seams.iter().find(|seam| seam.a.contains(&edge) || seam.b.contains(&edge));
@@ -148,11 +135,9 @@ impl Desk {
     }
 }
 
-/// A notch on an edge of a piece.
 struct EdgeNotch {
-    /// Index of the edge.
     edge: usize,
-    /// Arc length from the start of the edge, mm.
+    /// Arc length from the start of the edge.
     along_mm: f64,
 }
 
@@ -175,33 +160,27 @@ fn notches(piece: &StylePiece) -> Vec<EdgeNotch> {
     piece.notches.iter().filter_map(|notch| nearest(notch.at)).collect()
 }
 
-/// A proposal with its desk.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Proposed {
-    /// The proposed seams.
     #[serde(flatten)]
     pub proposal: Proposal,
-    /// Pieces and seams of the proposal.
     pub desk: Desk,
 }
 
 /// Options for proposing seams.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Asking<'a> {
-    /// Size that the proposal is made on; `None` for the sample size.
+    /// `None` for the sample size.
     pub size: Option<&'a str>,
     /// Unit of the files, where they name none.
     pub unit: Option<Unit>,
-    /// Seam allowance of pieces without a sew line, m.
+    /// Seam allowance of pieces without a sew line.
     pub allowance_m: f64,
-    /// Answers to questions of the proposal: number of the question, letter of the choice.
+    /// Number of the question, letter of the choice.
     pub answers: &'a [(usize, char)],
 }
 
 /// Proposes a seam file for the pieces of a pattern, on one size, and checks it on the others.
-///
-/// # Errors
-/// When a file cannot be read or lacks the size, or an answer fits no question.
 pub fn propose(path: &Path, how: &Asking<'_>) -> Result<Proposed> {
     let ProposalOnPieces { proposal, pieces } = proposal(&SourceFile::read_pattern(path)?, how)?;
     if proposal.is_empty() {
@@ -216,11 +195,8 @@ pub fn propose(path: &Path, how: &Asking<'_>) -> Result<Proposed> {
     Ok(Proposed { proposal, desk })
 }
 
-/// A proposal, and the pieces of the size on which it is made.
 pub struct ProposalOnPieces {
-    /// The proposed seams.
     pub proposal: Proposal,
-    /// Pieces of the size.
     pub pieces: Vec<Piece>,
 }
 

@@ -26,7 +26,7 @@ pub struct Beside<'a> {
     pub rules: Option<&'a Path>,
     /// Unit of the table's numbers, replacing the unit that it names.
     pub rule_unit: Option<Unit>,
-    /// Path of the table of piece information, CSV or XLSX.
+    /// CSV or XLSX with piece information.
     pub info: Option<&'a Path>,
 }
 
@@ -73,9 +73,6 @@ impl Beside<'_> {
 
 /// Reports the contents of a pattern file of any kind, or of every pattern below a folder, by name. An unreadable file
 /// has its error in its report.
-///
-/// # Errors
-/// When the path cannot be read, or a file beside it is wrong.
 pub fn inspect(path: &Path, beside: &Beside<'_>) -> Result<Vec<FileReport>> {
     let files = if path.is_dir() { drawings(path)? } else { vec![path.to_owned()] };
     files.iter().map(|file| report(&SourceFile::read(file)?.bytes, &file.to_string_lossy(), beside)).collect()
@@ -99,10 +96,7 @@ fn report(bytes: &[u8], name: &str, beside: &Beside<'_>) -> Result<FileReport> {
     Ok(FileReport::from(&pattern))
 }
 
-/// Returns the features of a pattern's pieces as JSON, with remarks on the tables.
-///
-/// # Errors
-/// When a file cannot be read, or a piece of it is refused.
+/// Returns JSON, with remarks on the tables.
 pub fn features(path: &Path, beside: &Beside<'_>) -> Result<(String, Vec<String>)> {
     let source = SourceFile::read(path)?;
     let (pattern, notes) = beside.usable_pattern(&source)?;
@@ -112,9 +106,6 @@ pub fn features(path: &Path, beside: &Beside<'_>) -> Result<(String, Vec<String>
 
 /// Writes a pattern as DXF by a standard, half pieces as halves and all sizes as a nest. Returns remarks on the tables
 /// too.
-///
-/// # Errors
-/// As [`features`].
 pub fn convert_to_dxf(path: &Path, beside: &Beside<'_>, standard: Standard) -> Result<(Vec<u8>, Vec<String>)> {
     let (pattern, notes) = beside.usable_pattern(&SourceFile::read(path)?)?;
     Ok((dxf::write_pieces(&pattern.pieces, &pattern.texts, standard), notes))
@@ -123,19 +114,15 @@ pub fn convert_to_dxf(path: &Path, beside: &Beside<'_>, standard: Standard) -> R
 /// A pattern as sample size and grade rule table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Graded {
-    /// Sample size as DXF.
+    /// Sample size.
     pub dxf: Vec<u8>,
-    /// Text of the grade rule table.
     pub rules: String,
     /// Remarks on parts without rules, and on the tables beside the pattern.
     pub notes: Vec<String>,
 }
 
-/// Writes the sample size of a pattern as DXF by a standard, and the grade rule table that makes all sizes from it. The
-/// DXF names the table.
-///
-/// # Errors
-/// As [`features`]; also when a piece is missing or different in one size.
+/// Writes the sample size of a pattern as DXF, and the grade rule table that makes all sizes from it. The DXF names the
+/// table. Fails where a piece is missing or different in one size.
 pub fn convert_to_graded(path: &Path, beside: &Beside<'_>, standard: Standard, table_name: &str) -> Result<Graded> {
     let all = Beside { size: None, ..*beside };
     let (pattern, mut remarks) = all.usable_pattern(&SourceFile::read(path)?)?;
@@ -150,10 +137,7 @@ pub fn convert_to_graded(path: &Path, beside: &Beside<'_>, standard: Standard, t
     Ok(Graded { dxf: dxf::write_pieces(&pieces, &texts, standard), rules, notes: remarks })
 }
 
-/// Writes a pattern and its seams as GarmentCode JSON. Returns remarks on the tables too.
-///
-/// # Errors
-/// When a file cannot be read, or the seams do not fit the pattern.
+/// Returns remarks on the tables too.
 pub fn convert_to_garmentcode(path: &Path, seams: Option<&Path>, beside: &Beside<'_>) -> Result<(String, Vec<String>)> {
     let source = SourceFile::read(path)?;
     let mut notes = Vec::new();

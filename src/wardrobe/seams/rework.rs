@@ -13,19 +13,14 @@ const OWN_TABLES: [&str; 3] = ["measurement", "reinforce", "fit"];
 /// A seam file as proposed, and as a person has edited it.
 #[derive(Clone, Copy)]
 pub struct Reworked<'a> {
-    /// Text of the seam file as it was proposed.
     pub proposed: &'a str,
     /// Text after the edits.
     pub own: &'a str,
-    /// Name of the file for messages.
     pub file: &'a str,
 }
 
 impl Reworked<'_> {
     /// Applies all these edits to another proposal. A seam that can no longer be sewn becomes a question.
-    ///
-    /// # Errors
-    /// When a text is no seam file.
     pub fn done_again(&self, other: String, sizes: &Sizes<'_>) -> Result<String> {
         let read = |text: &str| SeamFile::parse(text.as_bytes(), self.file).origin(Origin::Pattern);
         let (proposed, own) = (read(self.proposed)?, read(self.own)?);
@@ -45,7 +40,6 @@ impl Reworked<'_> {
         })
     }
 
-    /// Copies the tables that only a person writes into a text.
     fn with_own_tables(&self, text: String) -> Result<String> {
         let parse = |text: &str| text.parse::<DocumentMut>().origin(Origin::Pattern);
         let own = parse(self.own)?;

@@ -26,9 +26,7 @@ pub use pattern::spec_sheet::matching::Answer;
 /// A row of a sheet that is asked for.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AskedRow {
-    /// Code of the row.
     pub code: String,
-    /// Description of the row, as written.
     pub description: String,
     /// Reason, as the end of a sentence.
     pub why: String,
@@ -36,16 +34,14 @@ pub struct AskedRow {
     pub candidates: Vec<String>,
 }
 
-/// A specification beside a pattern.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpecReport {
     /// Name of the pattern or style.
     pub garment: String,
-    /// Name of the sheet's file.
     pub file: String,
-    /// Name of the sheet in its workbook. Empty for CSV.
+    /// Name in the workbook; empty for CSV.
     pub sheet: String,
-    /// Unit of the sheet: `in`, `cm` or `mm`.
+    /// `in`, `cm` or `mm`.
     pub unit: String,
     /// Reason for the unit, such as `cell B3 says cm`.
     pub unit_from: String,
@@ -53,32 +49,24 @@ pub struct SpecReport {
     pub rows: u32,
     /// Number of those rows that are a point of measure.
     pub matched: u32,
-    /// Names of the sizes, in the order of the sheet.
+    /// Order is that of the sheet.
     pub sizes: Vec<String>,
     /// Every row in every size, in the order of the sheet.
     pub lines: Vec<SpecLine>,
-    /// Rows that are asked for.
     pub asked: Vec<AskedRow>,
-    /// Remarks for the reader, as sentences.
     pub notes: Vec<String>,
 }
 
 /// A sheet whose sizes have the names of the pattern's, with the point of each row.
 pub struct Compared {
-    /// Sheet as read.
     pub sheet: SpecSheet,
-    /// Points of its rows.
     pub matching: Matching,
     /// Lengths of the pattern at those points in each size of the sheet, mm, by the names of the points.
     pub flats: BTreeMap<String, Vec<Option<f64>>>,
-    /// Report.
     pub report: SpecReport,
 }
 
-/// Compares a sheet with every size of a pattern. Without a seam file the pattern is sewn as proposed.
-///
-/// # Errors
-/// When a file cannot be read, the pattern cannot be sewn, or the sheet fits it in no size or unit.
+/// Without a seam file the pattern is sewn as proposed.
 pub fn spec_report(
     pattern: &Path,
     seams: Option<&Path>,
@@ -94,10 +82,7 @@ pub fn spec_report(
     Ok(report)
 }
 
-/// Compares a sheet with the sizes of a style. `sizes` and `styles` go together.
-///
-/// # Errors
-/// When the sheet cannot be read, has none of the sizes, or its unit is not known.
+/// `sizes` and `styles` go together.
 pub fn compared(
     garment: &str,
     file: &SourceFile,
@@ -184,7 +169,6 @@ fn report(
 
 impl SpecReport {
     /// Table with a row for each row of the sheet in each size. Its columns are those of `v_spec`, lengths in mm.
-    #[must_use]
     pub fn table(&self) -> Table {
         let columns = [
             "code",
@@ -224,7 +208,6 @@ impl SpecReport {
 
     /// Table for people: a row for each row of the sheet, with the specification and the deviation in each size, mm. A
     /// deviation outside its tolerance has an exclamation mark.
-    #[must_use]
     pub fn overview(&self) -> Table {
         let mut columns: Vec<String> = ["code", "description", "point", "tolerance"].map(str::to_owned).to_vec();
         columns.extend(self.sizes.iter().flat_map(|size| [size.clone(), format!("{size} off")]));
@@ -246,8 +229,6 @@ impl SpecReport {
         Table { rows: rows.collect(), columns }
     }
 
-    /// Lines of each row of the sheet, in order.
-    #[must_use]
     pub fn by_row(&self) -> Vec<Vec<&SpecLine>> {
         let mut rows: Vec<Vec<&SpecLine>> = Vec::new();
         for line in &self.lines {
@@ -259,14 +240,10 @@ impl SpecReport {
         rows
     }
 
-    /// True if any length is out of tolerance.
-    #[must_use]
     pub fn is_out(&self) -> bool {
         self.lines.iter().any(SpecLine::is_out)
     }
 
-    /// Sentence on the rows: how many are points, and how many lengths are out of tolerance.
-    #[must_use]
     pub fn summary(&self) -> String {
         let judged = self.lines.iter().filter(|line| line.verdict.is_some()).count();
         let out = self.lines.iter().filter(|line| line.is_out()).count();
@@ -278,7 +255,7 @@ impl SpecReport {
     }
 }
 
-/// Number rounded to hundredths. Adding zero removes the sign of a zero.
+/// Adding zero removes the sign of a zero.
 fn hundredths(number: Option<f64>) -> Value {
     number.map_or(Value::Null, |number| Value::Real((number * 100.0).round() / 100.0 + 0.0))
 }

@@ -14,54 +14,43 @@ use spec::patterns::{self, Nest};
 use store::files::SourceFile;
 use store::{Result, Table, Value};
 
-/// A point of measure of one size.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpecifiedPoint {
     /// Name of the point in tables and SQL.
     pub point: &'static str,
-    /// Name of the size, such as `M`.
     pub size: String,
-    /// Length of the point, mm.
     pub length_mm: f64,
-    /// Length minus that of the size before, mm; `None` for the first size.
+    /// Length minus that of the size before; `None` for the first size.
     pub step_mm: Option<f64>,
-    /// Definition of the point in words.
     pub definition: &'static str,
 }
 
-/// Points of measure of a pattern in its sizes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Specification {
     /// Name of the pattern.
     pub garment: String,
-    /// Names of the sizes, the smallest first.
+    /// Smallest first.
     pub sizes: Vec<String>,
     /// Every point of every size, by point.
     pub points: Vec<SpecifiedPoint>,
-    /// Remarks for the reader, as sentences.
     pub notes: Vec<String>,
-    /// Drawing of the first size's pieces with numbered points, as SVG.
+    /// SVG of the first size's pieces with numbered points.
     #[serde(skip)]
     pub drawing: String,
 }
 
 /// Sizes of a pattern, sewn.
 pub struct Sized {
-    /// Name of the pattern.
     pub garment: String,
-    /// Names of the sizes, the smallest first.
+    /// Smallest first.
     pub sizes: Vec<String>,
-    /// Style of each size.
+    /// One for each size.
     pub styles: Vec<Style>,
-    /// Remarks for the reader, as sentences.
     pub notes: Vec<String>,
 }
 
 /// Reads every size of a pattern. Without a seam file the pattern is sewn as proposed. A size that cannot be sewn is left
 /// out with a note.
-///
-/// # Errors
-/// When a file cannot be read, or no size fits the seams.
 pub fn sized(pattern: &Path, seams: Option<&Path>, how: &Asking<'_>) -> Result<Sized> {
     let source = SourceFile::read_pattern(pattern)?;
     let garment = pattern.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -95,10 +84,7 @@ pub fn sized(pattern: &Path, seams: Option<&Path>, how: &Asking<'_>) -> Result<S
     Ok(Sized { garment, sizes: read, styles, notes })
 }
 
-/// Measures every size of a pattern at its points of measure. Without a seam file the pattern is sewn as proposed.
-///
-/// # Errors
-/// When a file cannot be read, a size does not fit the seams, or no piece has a role by which points are found.
+/// Without a seam file the pattern is sewn as proposed.
 pub fn specification(pattern: &Path, seams: Option<&Path>, how: &Asking<'_>) -> Result<Specification> {
     let Sized { garment, sizes, styles, notes } = sized(pattern, seams, how)?;
     let mut found = Specification::of(garment, sizes, &styles);
@@ -109,7 +95,6 @@ pub fn specification(pattern: &Path, seams: Option<&Path>, how: &Asking<'_>) -> 
     Ok(found)
 }
 
-/// Every point of every size, by point.
 fn points(sizes: &[String], styles: &[Style]) -> Vec<SpecifiedPoint> {
     let measured: Vec<Vec<_>> = styles.iter().map(Style::points_of_measure).collect();
     let mut found = Vec::new();
@@ -132,8 +117,6 @@ fn points(sizes: &[String], styles: &[Style]) -> Vec<SpecifiedPoint> {
 }
 
 impl Specification {
-    /// Makes the specification of styles that are the sizes of one pattern.
-    #[must_use]
     pub fn of(garment: String, sizes: Vec<String>, styles: &[Style]) -> Self {
         let points = points(&sizes, styles);
         let drawing = styles.first().map_or_else(String::new, patterns::points_sheet);
@@ -147,7 +130,6 @@ impl Specification {
 
     /// Returns the sheet: a row for each point; columns with the length in each size and the step from the size before,
     /// mm.
-    #[must_use]
     pub fn table(&self) -> Table {
         let name = |size: &String| if size.is_empty() { "mm".to_owned() } else { format!("{size}_mm") };
         let mut columns = vec!["point".to_owned()];

@@ -28,23 +28,16 @@ const UNLIKE: f64 = 0.4;
 /// Greatest difference in place between notches that match, as a share of the edge.
 const SAME_NOTCH: f64 = 0.03;
 
-/// An answer to a question, and what it does.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Choice {
-    /// Answer in words.
     pub label: String,
-    /// Step of work that carries out the answer.
     pub step: SeamStep,
-    /// Edges that the answer names.
     pub edges: Vec<EdgeAt>,
 }
 
-/// An open question about seams.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Undecided {
-    /// Question in words.
     pub text: String,
-    /// Edges that the question is about.
     pub edges: Vec<EdgeAt>,
     /// Likely answers; empty where only an edit helps.
     pub choices: Vec<Choice>,
@@ -57,7 +50,7 @@ pub struct Undecided {
 }
 
 impl Undecided {
-    /// Question of a proposal. `drawn` are the pieces of the desk by their names in the pattern file.
+    /// `drawn` are the pieces of the desk by their names in the pattern file.
     pub(crate) fn asked(desk: &Desk, drawn: &[(String, usize)], question: Question) -> Self {
         let written = question.to_string();
         let answer = |(choice, label): (usize, &String)| Choice {
@@ -110,8 +103,6 @@ impl Undecided {
         })
     }
 
-    /// Asks what to do with a seam.
-    #[must_use]
     pub fn seam(desk: &Desk, seam: usize) -> Self {
         let DeskSeam { name, a, b, a_mm, b_mm, .. } = &desk.seams[seam];
         let [one, other] = [a, b].map(|chain| names(desk, chain));
@@ -134,7 +125,6 @@ impl Undecided {
         }
     }
 
-    /// Asks about a finding of a check.
     pub(crate) fn found(desk: &Desk, finding: &Finding) -> Self {
         let free = if finding.kind == FindingKind::FreeEdge { desk.edge_of(&finding.place) } else { None };
         match free {
@@ -147,7 +137,6 @@ impl Undecided {
     }
 
     /// Asks what an edge in no seam is sewn to.
-    #[must_use]
     pub fn free(desk: &Desk, edge: EdgeAt) -> Self {
         let (name, length_mm) = (desk.edge_name(edge), desk.edge(edge).length_mm);
         let sewn = |partner: Vec<EdgeAt>| {
@@ -178,7 +167,6 @@ impl Undecided {
     }
 
     /// Asks which of the left-out pieces, from index `first` on, is worn too; `None` where no more are left out.
-    #[must_use]
     pub fn left_out(desk: &Desk, first: usize) -> Option<Self> {
         let shown = desk.left_out.get(first..)?;
         let taken = |name: &String, is_pair: bool| Choice {
@@ -193,7 +181,6 @@ impl Undecided {
     }
 
     /// Asks for the role of a piece, and if it is worn at all.
-    #[must_use]
     pub fn piece(desk: &Desk, piece: usize) -> Self {
         let drawn = &desk.pieces[piece];
         let role = |role: Role| Choice {
@@ -219,14 +206,11 @@ impl Undecided {
 }
 
 impl Desk {
-    /// Returns an edge by its indices.
-    #[must_use]
     pub fn edge(&self, (piece, edge): EdgeAt) -> &DeskEdge {
         &self.pieces[piece].edges[edge]
     }
 
     /// Name of an edge in edits: `front.side_left`, or `front.3` for an edge without a name.
-    #[must_use]
     pub fn edge_name(&self, (piece, edge): EdgeAt) -> String {
         let drawn = &self.pieces[piece].edges[edge];
         format!("{}.{}", self.pieces[piece].id, drawn.name.clone().unwrap_or_else(|| drawn.number.to_string()))
@@ -238,19 +222,15 @@ impl Desk {
         *role == Role::Other && edges.iter().all(|edge| edge.seam.is_none())
     }
 
-    /// All edges of the pieces that are drawn under some names.
     fn edges_of<'n>(&self, drawn: &[(String, usize)], names: impl Iterator<Item = &'n str>) -> Vec<EdgeAt> {
         let pieces = names.flat_map(|name| drawn.iter().filter(move |(drawn, _)| drawn == name));
         pieces.flat_map(|(_, piece)| (0..self.pieces[*piece].edges.len()).map(|edge| (*piece, edge))).collect()
     }
 
-    /// Names of the edges in no seam.
-    #[must_use]
     pub fn open_edges(&self) -> Vec<String> {
         self.all_edges().filter(|edge| self.edge(*edge).seam.is_none()).map(|edge| self.edge_name(edge)).collect()
     }
 
-    /// Returns the edge of a name.
     fn edge_of(&self, name: &str) -> Option<EdgeAt> {
         self.all_edges().find(|edge| self.edge_name(*edge) == name)
     }
@@ -331,7 +311,7 @@ fn extent_mm(desk: &Desk) -> f64 {
     size(0).hypot(size(1)).max(1.0)
 }
 
-/// Distance between the midpoints of two edges on the desk, mm.
+/// Distance between the midpoints.
 fn distance_mm(one: &DeskEdge, other: &DeskEdge) -> f64 {
     let ([[a, b], _], [[c, d], _]) = (one.middle(), other.middle());
     (a - c).hypot(b - d)
@@ -356,7 +336,6 @@ mod tests {
     use pattern::Style;
     use pattern::draft::Model;
 
-    /// The drafted T-shirt with some seams opened.
     fn desk(opened: &[&str]) -> Desk {
         let mut style = Style::read(&Model::Tshirt.drafts()[0].pieces, Model::Tshirt.seams(), "t").expect("our own");
         style.seams.retain(|seam| !opened.contains(&seam.name.as_str()));

@@ -24,14 +24,11 @@ const SETTLED: &str = "# SETTLED: ";
 /// Start of a line with a question that a person has answered.
 const ANSWERED: &str = "# ANSWERED: ";
 
-/// Pattern and seam file of a size.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Workpiece {
-    /// Pattern file with its bytes.
     pub pattern: SourceFile,
-    /// Seam file; `None` where the pattern holds its seams, or where there is none yet.
+    /// `None` where the pattern holds its seams, or where there is none yet.
     pub seams: Option<SourceFile>,
-    /// Name of the size.
     pub size: String,
     /// Unit of the pattern, where its file names none.
     pub unit: Option<Unit>,
@@ -42,32 +39,25 @@ pub struct Workpiece {
 pub struct DeskLength {
     /// Number by which tables and drawings name it (`#1`).
     pub no: u32,
-    /// Name for people to read, such as `Neck Opening`.
     pub name: String,
-    /// Pattern length L2D, mm.
     pub l2d_mm: f64,
 }
 
-/// A size, laid out for work on its seams.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LaidOut {
-    /// Pieces and seams. A proposed seam that nobody has confirmed has its confidence.
+    /// Unconfirmed proposed seams have their confidence.
     pub desk: Desk,
     /// Measurements of the seam file, in its order.
     pub lengths: Vec<DeskLength>,
     /// Open questions: those of a proposal, unsure seams, and findings of a check.
     pub undecided: Vec<Undecided>,
-    /// Number of questions of the proposal that a person has answered.
     pub answered: usize,
-    /// Difference in length between the sides of a seam above which a check reports it, mm.
+    /// Difference in length between the sides of a seam above which a check reports it.
     pub tolerance_mm: f64,
 }
 
 impl Workpiece {
-    /// Reads a pattern and its seam file, in the sample size where `size` is `None`.
-    ///
-    /// # Errors
-    /// When a file cannot be read.
+    /// `size` is `None` for the sample size.
     pub fn open(pattern: &Path, seams: Option<&Path>, size: Option<&str>, unit: Option<Unit>) -> Result<Self> {
         let (pattern, seams) = (SourceFile::read_pattern(pattern)?, seams.map(SourceFile::read).transpose()?);
         let size = match size {
@@ -77,10 +67,6 @@ impl Workpiece {
         Ok(Self { pattern, seams, size, unit })
     }
 
-    /// Lays the pieces out with their seams.
-    ///
-    /// # Errors
-    /// When a file cannot be read, or seams and pattern do not fit each other.
     pub fn laid_out(&self) -> Result<LaidOut> {
         let style = patterns::read_style(&self.pattern, self.seams.as_ref(), Some(&self.size), self.unit)?;
         let mut desk = Desk::of(&style);
@@ -137,10 +123,7 @@ impl Workpiece {
         Ok(drawn)
     }
 
-    /// Returns the seam file after a step.
-    ///
-    /// # Errors
-    /// When the pattern holds its own seams, or the step cannot be done.
+    /// Fails where the pattern holds its own seams.
     pub fn after(&self, step: &SeamStep) -> Result<SourceFile> {
         let pattern = || self.pattern.name.clone();
         if self.pattern.holds_seams() {
@@ -185,10 +168,7 @@ impl Workpiece {
         act(&Sizes { name: &self.size, pieces: &pieces, others: &others })
     }
 
-    /// Proposes a seam file for the pieces, checked on all sizes of the pattern.
-    ///
-    /// # Errors
-    /// When the pattern cannot be read, or none of its pieces is recognised.
+    /// Proposes a seam file, checked on all sizes of the pattern.
     pub fn proposed(&self, style: &str) -> Result<SourceFile> {
         self.proposed_for(style, Nest::read(&self.pattern, self.unit)?.others(&self.size))
     }
@@ -198,7 +178,7 @@ impl Workpiece {
         self.proposed_with_answers(style, others, &Answers::new())
     }
 
-    /// Text of the seam file after a question is answered. Confirmed seams that are proposed again stay confirmed.
+    /// Confirmed seams that are proposed again stay confirmed.
     fn answered(&self, text: &str, question: &str, choice: usize) -> Result<String> {
         let asked: Vec<Question> = marked(text, QUESTION).chain(marked(text, ANSWERED)).collect();
         let known = asked.iter().find(|asked| asked.text == question);
@@ -253,10 +233,7 @@ impl Workpiece {
         entries.map_or_else(Vec::new, |entries| entries.open)
     }
 
-    /// Findings of a check of this size; empty for a pattern that holds its own seams.
-    ///
-    /// # Errors
-    /// When a file cannot be read.
+    /// Empty for a pattern that holds its own seams.
     pub fn findings(&self, style: &Style) -> Result<Vec<Finding>> {
         let Some(file) = self.seams.as_ref().filter(|_| !self.pattern.holds_seams()) else { return Ok(Vec::new()) };
         let entries = SeamFile::parse(&file.bytes, &file.name).origin(Origin::Pattern)?;
@@ -274,7 +251,6 @@ impl Workpiece {
     }
 }
 
-/// Text of a seam file in which a question is marked as settled.
 fn settled(text: &str, question: &str) -> String {
     let line = |line: &str| match line.strip_prefix(QUESTION) {
         Some(asked) if asked.trim_end() == question => format!("{SETTLED}{asked}"),
@@ -288,10 +264,7 @@ fn marked<'a>(text: &'a str, mark: &'a str) -> impl Iterator<Item = Question> + 
     text.lines().filter_map(move |line| line.strip_prefix(mark)).map(|line| Question::parse(line.trim_end()))
 }
 
-/// Returns a seam file after a step of work, checked against the pattern. Comments in the file stay.
-///
-/// # Errors
-/// When a file cannot be read, the edit names a missing part, or the result does not fit the pattern.
+/// Checks the result against the pattern. Comments in the file stay.
 pub fn edit_seams(
     pattern: &Path,
     seams: &Path,
@@ -303,7 +276,6 @@ pub fn edit_seams(
 }
 
 /// Path of a style's seam file in the folder of a study, if its contents are still the stored ones.
-#[must_use]
 pub fn seam_home(study: &Path, style: &str, stored: &SourceFile) -> Option<PathBuf> {
     let text = std::fs::read_to_string(study).ok()?;
     let table: toml::Table = text.parse().ok()?;
@@ -313,10 +285,7 @@ pub fn seam_home(study: &Path, style: &str, stored: &SourceFile) -> Option<PathB
     std::fs::read(&path).is_ok_and(|bytes| *bytes == *stored.bytes).then_some(path)
 }
 
-/// Replaces a seam file, if its contents are still those of `before`.
-///
-/// # Errors
-/// When the contents have changed, or the file cannot be read or written.
+/// Fails where the contents are no longer those of `before`.
 pub fn write_seams(path: &Path, before: &SourceFile, after: &SourceFile) -> Result<()> {
     let found = std::fs::read(path).map_err(StudyError::io(path))?;
     if *found != *before.bytes {
@@ -332,7 +301,6 @@ mod tests {
     use pattern::draft::Model;
     use pattern::seam_edit::Edit;
 
-    /// The T-shirt, size S, with seams from a text, or without any.
     fn tshirt(seams: Option<String>) -> Workpiece {
         let files = Model::Tshirt.files();
         let (name, bytes) = files.into_iter().find(|(name, _)| name.ends_with("s.dxf")).expect("a size S");

@@ -47,9 +47,6 @@ pub struct Patched {
 /// millimetres; all else stays byte for byte. A straight side that bends by more than 0.2 mm gets as few points as it
 /// needs, each a curve point (layer 3) where the file marks such. Curves keep their points. `unit` overrides the unit of
 /// the file.
-///
-/// # Errors
-/// [`DxfError`] if the file cannot be read, or one block would change in two ways.
 pub fn patched(bytes: &[u8], file_name: &str, unit: Option<Unit>, redraws: &[Redraw<'_>]) -> Result<Patched, DxfError> {
     let unit = super::read(bytes, file_name, unit)?.unit;
     let tags = scan(bytes, file_name)?;

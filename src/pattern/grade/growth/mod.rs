@@ -130,9 +130,6 @@ struct Levers {
 impl Growth {
     /// Growth of pieces as drawn by some handles. `file` is the name of the seam file for messages. Handles that the
     /// pattern has and that cannot move are [`Self::refused`].
-    ///
-    /// # Errors
-    /// [`GrowthError`] if pieces and seam file make no style.
     pub fn of(pieces: &[Piece], seam_bytes: &[u8], file: &str, handles: &[Handle]) -> Result<Self, GrowthError> {
         let redrawn = Redrawn::of(pieces, seam_bytes, file, &[])?;
         let mut pieces = redrawn.pieces();
@@ -172,7 +169,6 @@ impl Growth {
     }
 
     /// The sample size.
-    #[must_use]
     pub fn style(&self) -> &Style {
         &self.style
     }
@@ -183,7 +179,6 @@ impl Growth {
     }
 
     /// Handles that the pattern has and that cannot move, with the reason.
-    #[must_use]
     pub fn refused(&self) -> &[(Handle, HandleError)] {
         &self.refused
     }
@@ -426,9 +421,6 @@ impl Growth {
 
     /// Displacement of the cardinal points by amounts of handles, m, as tables write it. Seams are kept: where the sum
     /// of the handles parts the sides of one, its points are corrected for this size.
-    ///
-    /// # Errors
-    /// [`GrowthError`] if a piece cannot be graded so far or a seam comes apart.
     fn steps(&self, amounts: &[(Handle, f64)]) -> Result<(Vec<V2>, Style), GrowthError> {
         let mut exact = vec![V2::zeros(); self.points.len()];
         for (handle, amount_m) in amounts {
@@ -466,18 +458,12 @@ impl Growth {
     }
 
     /// Style that amounts of handles, m, make.
-    ///
-    /// # Errors
-    /// [`GrowthError`] if a piece cannot be graded so far or a seam comes apart.
     pub fn sized(&self, amounts: &[(Handle, f64)]) -> Result<Style, GrowthError> {
         Ok(self.steps(amounts)?.1)
     }
 
     /// Amounts of the handles that change points of measure as told, m: each by the amount of the handle that is named
     /// for it, and all others not at all. A handle without a point of measure keeps its amount.
-    ///
-    /// # Errors
-    /// [`GrowthError`] if a handle parts a seam.
     pub fn aimed(&self, told: &[(Handle, f64)]) -> Result<Vec<(Handle, f64)>, GrowthError> {
         let told: Vec<(Handle, f64)> =
             told.iter().copied().filter(|(handle, _)| self.handles().any(|h| h == *handle)).collect();

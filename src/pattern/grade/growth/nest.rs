@@ -26,9 +26,6 @@ pub struct Graded {
 impl Growth {
     /// Sizes as rules of the sample size. `sizes` are names with amounts of handles, m, by which they differ from the
     /// pattern at hand; `sample` is the index of the sample size.
-    ///
-    /// # Errors
-    /// [`GrowthError`] if a piece cannot be graded so far or a seam comes apart.
     pub fn graded(&self, sizes: &[(String, Vec<(Handle, f64)>)], sample: usize) -> Result<Graded, GrowthError> {
         let own = &sizes[sample].1;
         let at = self.at(&self.steps(own)?.0)?;

@@ -9,17 +9,15 @@ use pattern::Role;
 
 geom::constants! {
     "hybrid.features.limb",
-    /// Line of an arm that runs along its top, and along its underside.
+    /// Line of an arm that runs along its top and underside.
     pub(super) const TOP_OF_ARM: i32 = 16;
     const UNDER_ARM: i32 = 4;
-    /// Line of the trunk down the centre of the back.
     const CENTRE_BACK: i32 = 18;
-    /// Least length of a sleeve on the arm, m.
     const LEAST_SLEEVE_M: f64 = 0.02;
 }
 
 impl Mapper<'_> {
-    /// Features of a sleeve in one piece: its opening goes round the arm at the length of the underarm seam.
+    /// Maps a sleeve in one piece: its opening goes round the arm at the length of the underarm seam.
     pub(super) fn sleeve(&mut self, piece: usize, chains: &[Chain], side: usize) -> Found {
         let [rising, falling] = self.lengthwise(piece, chains)?;
         let opening = joined(run(falling, rising, chains));
@@ -47,7 +45,6 @@ impl Mapper<'_> {
         Ok(())
     }
 
-    /// The rising and the falling side of the seam that makes a tube about a limb of a piece.
     fn lengthwise(&self, piece: usize, chains: &[Chain]) -> Result<[usize; 2], &'static str> {
         let [a, b] = own_seam(piece, chains)?;
         let up = |i: usize| chains[i].chord(self.garment).y > 0.0;
@@ -58,8 +55,8 @@ impl Mapper<'_> {
         }
     }
 
-    /// Point at which the underarm seam of a sleeve meets the trunk, the ends of the cap: at a side seam, or else
-    /// interpolated between the nearest placed points of the cap by arc length.
+    /// Point at which a sleeve's underarm seam meets the trunk: at a side seam, or else interpolated between the
+    /// nearest placed points of the cap by arc length.
     fn underarm(&mut self, cap: &[usize]) -> Option<V3> {
         let (first, last) = (*cap.first()?, *cap.last()?);
         if let Some(place) = self.place(first) {
@@ -75,8 +72,7 @@ impl Mapper<'_> {
         Some(place)
     }
 
-    /// Features of a piece that goes all round the trunk, sewn to itself: its seam runs down the centre back from the
-    /// waist.
+    /// Maps a piece that goes all round the trunk, sewn to itself: its seam runs down the centre back from the waist.
     pub(super) fn wrap(&mut self, piece: usize, chains: &[Chain]) -> Found {
         let [a, b] = own_seam(piece, chains)?;
         let lines = [joined(run(a, b, chains)), joined(run(b, a, chains))];
@@ -99,7 +95,7 @@ impl Mapper<'_> {
         Ok(())
     }
 
-    /// Features of a leg in one piece: its inseam runs down the inside, its waist from centre front to centre back.
+    /// Maps a leg in one piece: its inseam runs down the inside, its waist from centre front to centre back.
     pub(super) fn whole_leg(&mut self, piece: usize, chains: &[Chain], side: usize) -> Found {
         let [rising, falling] = self.lengthwise(piece, chains)?;
         let other =
@@ -134,14 +130,12 @@ impl Mapper<'_> {
         Ok(())
     }
 
-    /// Point at which the legs meet on the form.
     fn fork_place(&self) -> V3 {
         let mesh = &self.form.mesh;
         let sides = [self.form.legs[0].at(mesh, 12, 0.0), self.form.legs[1].at(mesh, 0, 0.0)];
         sides[0].lerp(&sides[1], 0.5)
     }
 
-    /// Features of the front or back of one leg.
     pub(super) fn leg(&mut self, piece: usize, chains: &[Chain], side: usize) -> Found {
         let own = face(self.garment.pieces[piece].role);
         let role_of = |chain: &Chain| match chain.partner {
@@ -202,7 +196,6 @@ impl Mapper<'_> {
     }
 }
 
-/// The two sides of the seam that makes a tube of a piece.
 fn own_seam(piece: usize, chains: &[Chain]) -> Result<[usize; 2], &'static str> {
     let is_own = |c: &Chain| c.partner == Partner::Piece(piece);
     let own: Vec<usize> = (0..chains.len()).filter(|&i| is_own(&chains[i])).collect();

@@ -4,7 +4,6 @@ use super::OnTube;
 use crate::hybrid::outline::Chain;
 use pattern::Garment;
 
-/// A line round a tube from one point of it to another.
 pub(super) fn between([from, to]: [OnTube; 2]) -> impl Fn(f64) -> OnTube {
     move |share| OnTube {
         line: from.line + (to.line - from.line) * share,
@@ -12,23 +11,17 @@ pub(super) fn between([from, to]: [OnTube; 2]) -> impl Fn(f64) -> OnTube {
     }
 }
 
-/// The chains that follow one and precede another.
 pub(super) fn run(from: usize, to: usize, chains: &[Chain]) -> impl Iterator<Item = &Chain> {
     let n = chains.len();
     (1..n).map(move |k| (from + k) % n).take_while(move |&i| i != to).map(|i| &chains[i])
 }
 
-/// Chains between two consecutive key chains.
 pub(super) struct Group {
-    /// Key chain before them.
     pub before: usize,
-    /// Chains between.
     pub inner: Vec<usize>,
-    /// Key chain after them.
     pub after: usize,
 }
 
-/// Groups of chains between key chains, counter-clockwise.
 pub(super) fn groups<K>(keys: &[Option<K>], start: usize) -> Vec<Group> {
     let n = keys.len();
     let mut found = Vec::new();
@@ -46,7 +39,6 @@ pub(super) fn groups<K>(keys: &[Option<K>], start: usize) -> Vec<Group> {
     found
 }
 
-/// Vertices of consecutive chains as one line.
 pub(super) fn joined<'c>(chains: impl Iterator<Item = &'c Chain>) -> Vec<usize> {
     let mut vertices: Vec<usize> = Vec::new();
     for chain in chains {
@@ -56,7 +48,6 @@ pub(super) fn joined<'c>(chains: impl Iterator<Item = &'c Chain>) -> Vec<usize> 
     vertices
 }
 
-/// The vertex of a line whose arc length is nearest to `arc_m`.
 pub(super) fn nth(garment: &Garment, vertices: &[usize], arc_m: f64) -> usize {
     let mut length_m = 0.0;
     let mut best = (f64::MAX, vertices[0]);

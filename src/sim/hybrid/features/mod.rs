@@ -22,55 +22,45 @@ use pattern::{Garment, Role};
 
 geom::constants! {
     "hybrid.features",
-    /// Number of auxiliary points on a hem, waist or opening: three points keep such a curve round the body level.
+    /// Auxiliary points on a hem, waist or opening: three keep such a curve round the body level.
     const AUXILIARY: usize = 3;
 }
 
-/// A corner or auxiliary point of a piece: a boundary vertex and its place on the form, m.
+/// Corner or auxiliary point of a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Feature {
-    /// Vertex of the garment, on the piece's outline.
     pub vertex: usize,
-    /// Place on the form, m.
     pub place: V3,
 }
 
-/// A piece's outline and the features along it, both counter-clockwise.
+/// Outline of a piece and the features along it, both counter-clockwise.
 #[derive(Clone, Debug)]
 pub struct Mapped {
     /// Boundary vertices, beginning with the first feature's.
     pub ring: Vec<usize>,
-    /// Features in order along the ring.
     pub features: Vec<Feature>,
 }
 
-/// Kind of a garment, as far as mapping goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Hangs from shoulders or waist: tops, dresses, skirts.
     Hung,
     /// Hangs from the waist and goes round each leg: trousers.
     Legs,
-    /// A top and trousers in one.
+    /// Top and trousers in one.
     Suit,
 }
 
-/// True if pieces of a role are worn on a leg.
-#[must_use]
 pub fn is_leg(role: Role) -> bool {
     is_whole_leg(role)
         || matches!(role, Role::LegFrontRight | Role::LegFrontLeft | Role::LegBackRight | Role::LegBackLeft)
 }
 
-/// True if pieces of a role are a leg in one piece.
 fn is_whole_leg(role: Role) -> bool {
     matches!(role, Role::LegRight | Role::LegLeft)
 }
 
-/// Kind of a garment.
-///
-/// # Errors
-/// [`SimError::CannotPlace`] for a skirt over trousers.
+/// Fails for a skirt over trousers.
 pub fn kind(garment: &Garment) -> Result<Kind, SimError> {
     let first = |is_wanted: fn(Role) -> bool| garment.pieces.iter().find(|piece| is_wanted(piece.role));
     let is_top = |role: Role| !is_leg(role);
@@ -90,16 +80,12 @@ pub fn kind(garment: &Garment) -> Result<Kind, SimError> {
 /// Side of the trunk that a piece lies on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Face {
-    /// The side that the wearer's front is on.
     Front,
-    /// The side that the wearer's back is on.
     Back,
     /// All round a limb.
     Round,
 }
 
-/// Side of the trunk that pieces of a role lie on.
-#[must_use]
 pub fn face(role: Role) -> Face {
     match role {
         Role::Front | Role::BodiceFront | Role::SkirtFront | Role::LegFrontRight | Role::LegFrontLeft => Face::Front,
@@ -108,7 +94,7 @@ pub fn face(role: Role) -> Face {
     }
 }
 
-/// True if pieces of a role are the lower part of a dress, or a skirt.
+/// Includes the lower part of a dress.
 fn is_skirt(role: Role) -> bool {
     matches!(role, Role::SkirtFront | Role::SkirtBack)
 }
@@ -118,17 +104,13 @@ fn is_low(role: Role) -> bool {
     is_skirt(role) || is_leg(role)
 }
 
-/// A point of a tube: line and parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct OnTube {
     line: f64,
     along: f64,
 }
 
-/// The features of every piece of a garment.
-///
-/// # Errors
-/// [`SimError::CannotMap`] when an outline is not that of a piece of its role.
+/// Fails with [`SimError::CannotMap`] where an outline is not that of a piece of its role.
 pub fn features(body: &Body, form: &Form, garment: &Garment) -> Result<Vec<Mapped>, SimError> {
     let partners = outline::partners(garment);
     let mut pieces = Vec::new();
@@ -166,16 +148,14 @@ pub fn features(body: &Body, form: &Form, garment: &Garment) -> Result<Vec<Mappe
     mapped.collect()
 }
 
-/// Result of the search for the features of a piece, with the reason where they are not found.
+/// Search for the features of a piece, with the reason where they are not found.
 type Found = Result<(), &'static str>;
 
-/// A garment with the features found so far.
 struct Mapper<'a> {
     body: &'a Body,
     form: &'a Form,
     garment: &'a Garment,
     welded: Vec<usize>,
-    /// Place of each welded vertex that is a feature.
     places: BTreeMap<usize, V3>,
 }
 
@@ -192,7 +172,6 @@ impl Mapper<'_> {
         self.garment.rest[vertex].y
     }
 
-    /// The features along a ring, which is turned to begin with one.
     fn along(&self, mut ring: Vec<usize>) -> Option<Mapped> {
         let start = ring.iter().position(|&v| self.place(v).is_some())?;
         ring.rotate_left(start);
@@ -236,7 +215,6 @@ impl Mapper<'_> {
     }
 }
 
-/// Constants of features that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
     [limb::CONSTANTS, CONSTANTS, trunk::CONSTANTS].concat()
 }

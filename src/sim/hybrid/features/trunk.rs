@@ -10,17 +10,17 @@ use pattern::Role;
 
 geom::constants! {
     "hybrid.features.trunk",
-    /// Share of the way from armscye to the middle of the upper arm up to which a shoulder seam longer than the
-    /// shoulder reaches onto the arm. The pop-up restores any length beyond.
+    /// Share of the way from armscye to the middle of the upper arm up to which a longer shoulder seam reaches onto the
+    /// arm. The pop-up restores any length beyond.
     const MOST_DROP: f64 = 0.25;
-    /// Greatest depth of an underarm point below the armpit, m: deeper armholes would leave no arm for the sleeve, and
-    /// the pop-up restores their depth.
+    /// Greatest depth of an underarm point below the armpit: deeper armholes would leave no arm for the sleeve, and the
+    /// pop-up restores their depth.
     const MOST_DEPTH_M: f64 = 0.005;
-    /// Distance from the middle within which a point of a trunk lies at its centre, m.
+    /// Distance from the middle within which a point of a trunk lies at its centre.
     const CENTRE_M: f64 = 0.02;
 }
 
-/// A seam of a trunk piece with a piece of the other face, or with its other half.
+/// Seam of a trunk piece with a piece of the other face, or with its other half.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Key {
     Side,
@@ -29,7 +29,7 @@ enum Key {
 }
 
 impl Mapper<'_> {
-    /// Features of a front or back piece, whole or half, with or without shoulders.
+    /// Maps a front or back piece, whole or half, with or without shoulders.
     pub(super) fn trunk(&mut self, piece: usize, chains: &[Chain]) -> Found {
         let role = self.garment.pieces[piece].role;
         let own = face(role);
@@ -99,7 +99,7 @@ impl Mapper<'_> {
         usize::from((own == Face::Front) == plus)
     }
 
-    /// Places the ends of a shoulder seam on the shoulder line (Algorithm 5.1), or beyond its end on the arm.
+    /// Places a shoulder seam's ends on the shoulder line (Algorithm 5.1), or beyond its end on the arm.
     fn shoulder(&mut self, own: Face, chain: &Chain) {
         let side = self.wearer_side(own, chain);
         let (outer, inner) = if chain.chord(self.garment).y > 0.0 {
@@ -190,7 +190,7 @@ impl Mapper<'_> {
         self.set(middle, self.on_centre(own, z));
     }
 
-    /// The point of the centre line, from the neck's base down, at the height `z`.
+    /// Point of the centre line, from the neck's base down, at height `z`.
     fn on_centre(&self, own: Face, z: f64) -> V3 {
         let index = if own == Face::Front { 6 } else { 18 };
         let control = &self.body.control;
@@ -225,7 +225,7 @@ impl Mapper<'_> {
         Ok(())
     }
 
-    /// The line of the trunk on which a point at its side or centre lies: 0 to 12 in front, 12 to 24 behind.
+    /// Line on which a point at the side or centre lies: 0 to 12 in front, 12 to 24 behind.
     fn trunk_line(&self, own: Face, place: &V3) -> f64 {
         let front = own == Face::Front;
         if place.x > CENTRE_M {

@@ -9,7 +9,6 @@ use crate::widgets::text;
 use store::{JobId, JobRow, RecommendationRow};
 
 /// Runs to compare: those marked; without marks, the shown job and that of the same cell by the other simulator.
-#[must_use]
 pub fn to_compare(state: &State) -> Vec<JobId> {
     if state.marks.len() > 1 {
         return state.marks.iter().copied().take(MOST).collect();
@@ -21,13 +20,11 @@ pub fn to_compare(state: &State) -> Vec<JobId> {
 }
 
 /// Runs in the comparison, as read from the database.
-#[must_use]
 pub fn compared(state: &State) -> &[Compared] {
     state.data.as_ref().map_or(&[], |data| &data.compared)
 }
 
 /// Recommendation for the garment and fit class of the first run.
-#[must_use]
 pub fn recommended(state: &State) -> Option<&RecommendationRow> {
     let data = state.data.as_ref()?;
     let job = &data.compared.first()?.job;
@@ -84,7 +81,6 @@ pub fn unmark_runs(state: &mut State) {
 
 impl CompareScreen {
     /// Rows that are shown: all measurements, or those in which the runs differ.
-    #[must_use]
     pub fn rows(&self, state: &State) -> Vec<ComparisonRow> {
         let filter = state.filter_of(Screen::Compare);
         let mut rows = comparison_rows(compared(state));
@@ -101,7 +97,6 @@ impl CompareScreen {
     }
 
     /// Comparison as text, separated by tabs.
-    #[must_use]
     pub fn table(&self, state: &State) -> Option<String> {
         let jobs: Vec<&JobRow> = compared(state).iter().map(|run| &run.job).collect();
         if jobs.is_empty() {

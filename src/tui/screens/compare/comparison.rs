@@ -29,14 +29,12 @@ pub struct ComparisonRow {
 
 impl ComparisonRow {
     /// Text to which the filter applies: what its line shows.
-    #[must_use]
     pub fn words(&self) -> String {
         let chi: Vec<String> = self.chi.iter().flatten().map(|chi| format!("{chi:.3}")).collect();
         format!("#{} {} {} {}", self.no, self.name, text::mm(self.l2d_m), chi.join(" "))
     }
 
     /// True if the runs differ in the measurement.
-    #[must_use]
     pub fn differs(&self) -> bool {
         let first = self.chi[0];
         self.chi.iter().any(|chi| match (first, chi) {
@@ -46,7 +44,6 @@ impl ComparisonRow {
     }
 
     /// Index of the run whose chi is nearest to 1; `None` where several are.
-    #[must_use]
     pub fn nearest(&self) -> Option<usize> {
         let error = |k: usize| self.chi[k].map_or(f64::INFINITY, |chi| (chi - 1.0).abs());
         let best = (0..self.chi.len()).min_by(|a, b| error(*a).total_cmp(&error(*b)))?;
@@ -56,7 +53,6 @@ impl ComparisonRow {
 }
 
 /// Labels of runs: the parts of their names that are not the same in all.
-#[must_use]
 pub fn labels(jobs: &[&JobRow]) -> Vec<String> {
     let parts: [fn(&JobRow) -> String; 5] = [
         |job| job.study.clone(),
@@ -80,7 +76,6 @@ pub fn labels(jobs: &[&JobRow]) -> Vec<String> {
 }
 
 /// Measurements of all runs, each run at its last stage, matched by number and name.
-#[must_use]
 pub fn comparison_rows(runs: &[Compared]) -> Vec<ComparisonRow> {
     let mut found: Vec<ComparisonRow> = Vec::new();
     for (k, run) in runs.iter().enumerate() {
@@ -106,7 +101,6 @@ fn last_stage(chi: &[ChiRow]) -> impl Iterator<Item = &ChiRow> {
 }
 
 /// Conclusions, in sentences, the most important first.
-#[must_use]
 pub fn verdict(runs: &[Compared], recommended: Option<&RecommendationRow>) -> Vec<String> {
     let jobs: Vec<&JobRow> = runs.iter().map(|run| &run.job).collect();
     let names = labels(&jobs);
@@ -142,7 +136,6 @@ pub fn verdict(runs: &[Compared], recommended: Option<&RecommendationRow>) -> Ve
 
 /// Sentence on both simulators over all sizes and subjects of a garment that both have draped: mean EI, and how often
 /// each has the less. `None` for fewer than two of them.
-#[must_use]
 pub fn of_study(jobs: &[JobRow], of: &JobRow) -> Option<String> {
     let is_it = |job: &&JobRow| job.study == of.study && job.garment == of.garment && job.is_current;
     let mut pairs: BTreeMap<(&str, &str, u32), [Option<f64>; 2]> = BTreeMap::new();
@@ -182,7 +175,6 @@ fn truest(runs: &[Compared], names: &[String]) -> String {
 
 /// Names of inputs in which runs differ from the first, without the hash of default parameters, which differs between
 /// simulators.
-#[must_use]
 pub fn differing_inputs(runs: &[Compared]) -> Vec<String> {
     let Some((first, rest)) = runs.split_first() else { return vec![] };
     let mut names: Vec<String> = rest

@@ -11,7 +11,6 @@ use wardrobe::{FabricRow, Mode, Part};
 
 impl FabricsScreen {
     /// Fabrics that pass the filter, in the order of the list.
-    #[must_use]
     pub fn shown<'a>(&self, state: &'a State) -> Vec<&'a FabricRow> {
         let Some(data) = &state.data else { return vec![] };
         let filter = state.filter_of(Screen::Fabrics);
@@ -32,13 +31,11 @@ impl FabricsScreen {
     }
 
     /// Index of the selected fabric in the list; 0 where the chosen fabric is not shown.
-    #[must_use]
     pub fn index_in(&self, shown: &[&FabricRow]) -> usize {
         shown.iter().position(|row| Some(&row.fabric.name) == self.chosen.as_ref()).unwrap_or(0)
     }
 
     /// The selected fabric.
-    #[must_use]
     pub fn selected<'a>(&self, state: &'a State) -> Option<&'a FabricRow> {
         let shown = self.shown(state);
         shown.get(self.index_in(&shown)).copied()
@@ -82,7 +79,6 @@ impl FabricsScreen {
     }
 
     /// Selected fabric as text, separated by tabs.
-    #[must_use]
     pub fn line(&self, state: &State) -> Option<String> {
         let fabric = &self.selected(state)?.fabric;
         let values =
@@ -92,7 +88,6 @@ impl FabricsScreen {
 }
 
 /// Marks of a fabric: the user's own, stiffens, coupled, a class.
-#[must_use]
 pub fn marks(row: &FabricRow) -> String {
     let mark = |is_on: bool, mark: char| if is_on { mark } else { ' ' };
     let (law, is_coupled) = (row.fabric.stretched, row.fabric.membrane_coupling_n_m != 0.0);
@@ -100,14 +95,12 @@ pub fn marks(row: &FabricRow) -> String {
 }
 
 /// Number of a fabric as the list shows it, by its index in [`FABRIC_SHOWN`].
-#[must_use]
 pub fn number(row: &FabricRow, k: usize) -> String {
     let value = FABRIC_NUMBERS[FABRIC_SHOWN[k]].get(&row.fabric);
     value.map_or("—".to_owned(), |value| in_four(value * FACTORS[k]))
 }
 
 /// A number in at most six columns.
-#[must_use]
 pub fn in_four(value: f64) -> String {
     match value.abs() {
         v if v >= 100.0 => format!("{value:.0}"),

@@ -21,7 +21,6 @@ pub enum FabricOrder {
 
 impl FabricOrder {
     /// Order after this one, for the key that sorts.
-    #[must_use]
     pub fn next(self) -> Self {
         match self {
             Self::Name => Self::Number(0),

@@ -12,13 +12,11 @@ use results::{CrossSection, GarmentWorn};
 use store::JobId;
 
 /// Subject of the selected cell of the grid.
-#[must_use]
 pub fn wearer(state: &State) -> Option<&String> {
     state.grid()?.subjects.get(state.place.subject)
 }
 
 /// Fit of the shown garment on that subject; `None` until it is read.
-#[must_use]
 pub fn worn(state: &State) -> Option<&GarmentWorn> {
     let (garment, wearer) = (&state.grid()?.garment, wearer(state)?);
     let worn = state.data.as_ref()?.worn.as_ref()?;
@@ -26,7 +24,6 @@ pub fn worn(state: &State) -> Option<&GarmentWorn> {
 }
 
 /// Levels of the fit card that pass the filter.
-#[must_use]
 pub fn card_levels(state: &State) -> Vec<&str> {
     let Some(card) = worn(state).map(|worn| &worn.card) else { return vec![] };
     let sits = |level: &str| {
@@ -39,7 +36,6 @@ pub fn card_levels(state: &State) -> Vec<&str> {
 }
 
 /// Quantities of the sizes that pass the filter.
-#[must_use]
 pub fn quantities_shown(state: &State) -> Vec<Quantity> {
     let mut rows = worn(state).map_or(vec![], |worn| quantities(&worn.sizes));
     let cells = |row: &Quantity| row.cells.iter().flatten().cloned().collect::<Vec<_>>().join(" ");
@@ -48,14 +44,12 @@ pub fn quantities_shown(state: &State) -> Vec<Quantity> {
 }
 
 /// True if the text of a row passes the filter.
-#[must_use]
 pub fn passes(state: &State, text: &str) -> bool {
     text.to_lowercase().contains(&state.filter_of(Screen::Fit))
 }
 
 impl FitScreen {
     /// Cross sections of the shown results; `None` while they are cut.
-    #[must_use]
     pub fn sections(&self, state: &State) -> Option<&Sections> {
         let jobs = jobs_of(worn(state)?);
         self.cut.as_ref().filter(|cut| cut.request == jobs).map(|cut| &cut.outcome)
@@ -66,7 +60,6 @@ impl FitScreen {
     }
 
     /// Level that is shown: the chosen one, else the worst level of the size to wear.
-    #[must_use]
     pub fn level<'a>(&'a self, state: &'a State) -> Option<&'a str> {
         let worn = worn(state)?;
         let sections = self.known_sections(state).iter().map(|section| section.level.as_str());
@@ -77,13 +70,11 @@ impl FitScreen {
     }
 
     /// Index of the shown level in `levels`.
-    #[must_use]
     pub fn level_in(&self, state: &State, levels: &[&str]) -> Option<usize> {
         self.level(state).and_then(|level| levels.iter().position(|other| is_same(other, level)))
     }
 
     /// Section at the shown level; the first section where no level was chosen and the shown one has none.
-    #[must_use]
     pub fn section(&self, state: &State) -> Option<&CrossSection> {
         let (level, sections) = (self.level(state)?, self.known_sections(state));
         let first = sections.first().filter(|_| self.level.is_none());
@@ -106,7 +97,6 @@ impl FitScreen {
     }
 
     /// Reason why the shown level has no section.
-    #[must_use]
     pub fn why_no_section(&self, state: &State) -> String {
         match (worn(state), self.sections(state)) {
             (None, _) => "reading…".to_owned(),
@@ -169,14 +159,12 @@ fn jobs_of(worn: &GarmentWorn) -> Vec<JobId> {
 }
 
 /// True if two names mean the same level: the bust is the chest of women's garments.
-#[must_use]
 pub fn is_same(level: &str, other: &str) -> bool {
     let plain = |level| if level == "bust" { "chest" } else { level };
     plain(level) == plain(other)
 }
 
 /// Fit card as text, separated by tabs.
-#[must_use]
 pub fn card_table(state: &State) -> Option<String> {
     let card = &worn(state).filter(|worn| !worn.card.sizes.is_empty())?.card;
     let names: Vec<String> =
@@ -199,7 +187,6 @@ pub fn card_table(state: &State) -> Option<String> {
 }
 
 /// Sizes side by side as text, separated by tabs.
-#[must_use]
 pub fn size_table(state: &State) -> Option<String> {
     let sizes = &worn(state).filter(|worn| !worn.sizes.is_empty())?.sizes;
     let names: Vec<&str> = sizes.iter().map(|size| size.size.as_str()).collect();

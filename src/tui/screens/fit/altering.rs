@@ -36,7 +36,6 @@ impl Alter {
     }
 
     /// Alteration that was found, shown or not.
-    #[must_use]
     pub fn found(&self) -> Option<&Alteration> {
         self.answer.as_ref()?.as_deref().ok()
     }
@@ -92,7 +91,6 @@ impl Alter {
     }
 
     /// Expected duration of the drape, in words.
-    #[must_use]
     pub fn how_long(&self, state: &State) -> String {
         self.drape_ms(state).map_or("that may take minutes".to_owned(), |ms| {
             format!("the study's drape took {}, this one about as long", duration(ms))
@@ -146,7 +144,6 @@ impl Alter {
     }
 
     /// Command that finds and writes the same alteration.
-    #[must_use]
     pub fn command(&self, state: &State) -> Option<String> {
         let (asked, found) = (self.asked.as_ref()?, self.found()?);
         let database = state.setup.database.as_ref();

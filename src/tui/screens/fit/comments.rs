@@ -16,7 +16,6 @@ use store::comments::{Comment, Edit, Round, State as Status};
 
 impl Comments {
     /// Listed comments that pass the filter: of the shown fitting or of all, without those that an earlier round met.
-    #[must_use]
     pub fn shown<'a>(&self, state: &'a State) -> Vec<&'a Comment> {
         let mut shown = self.in_scope(state);
         shown.retain(|one| {
@@ -35,13 +34,11 @@ impl Comments {
     }
 
     /// Index of the selected comment in the list.
-    #[must_use]
     pub fn index_in(&self, shown: &[&Comment]) -> usize {
         shown.iter().position(|one| Some(&key(one)) == self.chosen.as_ref()).unwrap_or(0)
     }
 
     /// The selected comment.
-    #[must_use]
     pub fn selected<'a>(&self, state: &'a State) -> Option<&'a Comment> {
         let shown = self.shown(state);
         shown.get(self.index_in(&shown)).copied()
@@ -54,7 +51,6 @@ impl Comments {
     }
 
     /// Fitting that actions are on: that of the selected comment among those of the study, else the shown one.
-    #[must_use]
     pub fn fitting(&self, state: &State) -> Option<FittingOf> {
         let study = state.study()?.name.clone();
         let selected = self.selected(state).filter(|_| self.is_whole);
@@ -142,7 +138,6 @@ impl Comments {
     }
 
     /// Listed comments as text, separated by tabs.
-    #[must_use]
     pub fn table(&self, state: &State) -> Option<String> {
         let shown = self.shown(state);
         let mut table = "garment\tsubject\tsize\tround\tno\tside\tplace\tcomment\tseverity\tcause\taction\towner\t\
@@ -227,7 +222,6 @@ fn round_of<'a>(state: &'a State, of: &FittingOf) -> Option<&'a Round> {
 }
 
 /// Status of a comment in words.
-#[must_use]
 pub fn status(one: &Comment) -> String {
     match (one.status, one.met_in) {
         (Status::Met, Some(round)) => format!("met in {round}"),

@@ -21,7 +21,6 @@ const DIFFERENCES: [(&str, &str); 4] = [
 ];
 
 /// Quantities that at least one size has: balance, pressure, folds, displaced openings, gaps, points of measure.
-#[must_use]
 pub fn quantities(sizes: &[SizeWorn]) -> Vec<Quantity> {
     let mut rows = Rows { sizes, found: vec![] };
     for (quantity, name) in DIFFERENCES {

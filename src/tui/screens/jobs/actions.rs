@@ -16,14 +16,12 @@ use store::{JobId, JobRow, Status};
 
 impl JobsScreen {
     /// Jobs that pass the filter, in the order of the list.
-    #[must_use]
     pub fn shown<'a>(&self, state: &'a State) -> Vec<&'a JobRow> {
         let Some(data) = &state.data else { return vec![] };
         self.rows().iter().filter_map(|row| data.jobs.get(*row)).collect()
     }
 
     /// Numbers of these jobs.
-    #[must_use]
     pub fn shown_ids(&self, state: &State) -> Vec<JobId> {
         self.shown(state).iter().map(|job| job.id).collect()
     }
@@ -45,7 +43,6 @@ impl JobsScreen {
     }
 
     /// Steps of the selected job: stored ones, or those seen while it runs.
-    #[must_use]
     pub fn steps<'a>(&'a self, state: &'a State) -> &'a [Step] {
         let stored = state.detail().map(|detail| detail.history.as_slice()).filter(|steps| !steps.is_empty());
         let seen = || state.focus.job.and_then(|id| self.traces.get(&id)).map(Vec::as_slice);
@@ -222,7 +219,6 @@ pub fn stop_run(state: &mut State) -> Vec<Effect> {
 }
 
 /// Selected job as text, separated by tabs.
-#[must_use]
 pub fn job_line(state: &State) -> Option<String> {
     let job = state.job()?;
     let ei = job.ei.map_or(String::new(), |ei| format!("{ei:.6}"));

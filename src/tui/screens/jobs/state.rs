@@ -27,7 +27,6 @@ pub enum JobOrder {
 
 impl JobOrder {
     /// Order after this one, for the key that sorts.
-    #[must_use]
     pub fn next(self) -> Self {
         match self {
             Self::Number => Self::Status,
@@ -101,7 +100,6 @@ impl JobsScreen {
     }
 
     /// Jobs that are shown, as indices into the data.
-    #[must_use]
     pub fn rows(&self) -> &[usize] {
         &self.arranged.rows
     }

@@ -9,7 +9,6 @@ use crate::screens::state::State;
 use store::ChiRow;
 
 /// Measurements of the selected result that pass the filter of the Results screen, in the order of the table.
-#[must_use]
 pub fn rows(state: &State) -> Vec<&ChiRow> {
     let filter = state.filter_of(Screen::Results);
     state.detail().map_or(vec![], |detail| state.measurements.rows(detail, &filter))

@@ -36,14 +36,12 @@ impl Measurements {
     }
 
     /// Stage that is shown: the chosen one, else the last.
-    #[must_use]
     pub fn stage<'a>(&self, detail: &'a Detail) -> Option<&'a str> {
         let stages = stages(detail);
         stages.iter().copied().find(|stage| Some(*stage) == self.stage.as_deref()).or(stages.last().copied())
     }
 
     /// Measurements of a result that contain `filter`, which is in lower case, in order.
-    #[must_use]
     pub fn rows<'a>(&self, detail: &'a Detail, filter: &str) -> Vec<&'a ChiRow> {
         let Some(stage) = self.stage(detail) else { return vec![] };
         let matches = |row: &ChiRow| words(row).to_lowercase().contains(filter);
@@ -60,7 +58,6 @@ impl Measurements {
 }
 
 /// Marks of a measurement: girth, free edge, controlled.
-#[must_use]
 pub fn marks(row: &ChiRow) -> String {
     let marks = [(row.is_girth, '○'), (row.is_free_edge, '~'), (row.is_controlled, '=')];
     marks.iter().filter(|(is_set, _)| *is_set).map(|(_, mark)| *mark).collect()
@@ -72,7 +69,6 @@ fn words(row: &ChiRow) -> String {
 }
 
 /// Stages of a result, in the order of the simulation.
-#[must_use]
 pub fn stages(detail: &Detail) -> Vec<&str> {
     ["sewn", "popup", "drape"].into_iter().filter(|stage| detail.chi.iter().any(|row| row.stage == *stage)).collect()
 }

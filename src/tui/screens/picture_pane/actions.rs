@@ -43,7 +43,6 @@ impl Pictures {
     }
 
     /// Request for a picture of this size, in cells, in the present view.
-    #[must_use]
     pub fn request(&self, of: Pictured, Size { width: columns, height: rows }: Size) -> PictureRequest {
         match of {
             Pictured::Preview(_) => PictureRequest { of, look: self.look, map: Map::Plain, columns, rows },
@@ -74,14 +73,12 @@ impl Pictures {
 }
 
 /// Drape of the selected job with its pane, where there are both.
-#[must_use]
 pub fn drape_in(state: &State, pane: Option<Rect>) -> Vec<(Pictured, Rect)> {
     let job = state.job().filter(|job| job.status.has_result()).map(|job| Pictured::Drape(job.id));
     job.zip(pane).into_iter().collect()
 }
 
 /// Requests for pictures of the panes that have room for one; empty where pictures are off.
-#[must_use]
 pub fn requests(state: &State, panes: Vec<(Pictured, Rect)>) -> Vec<PictureRequest> {
     let sized = panes.into_iter().map(|(of, pane)| (of, cells(pane)));
     let sized = sized.filter(|(_, size)| state.setup.abilities.pictures && size.width >= 4 && size.height >= 3);

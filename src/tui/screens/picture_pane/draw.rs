@@ -126,7 +126,6 @@ fn centred(area: Rect, size: Size) -> Rect {
 }
 
 /// Size of the picture in a pane, cells.
-#[must_use]
 pub fn cells(pane: Rect) -> Size {
     parts(Block::bordered().inner(pane)).0.as_size()
 }

@@ -14,7 +14,6 @@ use store::files::word;
 
 impl ReportsScreen {
     /// Reports that pass the filter of the screen.
-    #[must_use]
     pub fn shown(&self, state: &State) -> Vec<&ReportRow> {
         let filter = state.filter_of(Screen::Reports);
         let passes =
@@ -27,7 +26,6 @@ impl ReportsScreen {
     }
 
     /// The selected report.
-    #[must_use]
     pub fn selected(&self, state: &State) -> Option<&ReportRow> {
         let rows = self.shown(state);
         rows.get(self.row).or(rows.last()).copied()
@@ -86,7 +84,6 @@ impl ReportsScreen {
 }
 
 /// Size of a report's page, number of its files, and time at which it was built.
-#[must_use]
 pub fn facts(state: &State, row: &ReportRow) -> [String; 3] {
     let built = text::date(row.written_ms + state.offset_ms());
     [format!("{} kB", row.bytes.div_ceil(1000)), row.files.to_string(), built]
@@ -103,7 +100,6 @@ fn is_opened(address: &str) -> bool {
 }
 
 /// Command that copies the folder of a report's page onto the user's own machine.
-#[must_use]
 pub fn fetching(state: &State, page: &Path) -> String {
     let page = std::path::absolute(page).unwrap_or_else(|_| page.to_owned());
     let folder = page.parent().unwrap_or(&page).display().to_string();
@@ -111,7 +107,6 @@ pub fn fetching(state: &State, page: &Path) -> String {
 }
 
 /// Address of a page for a browser on this machine.
-#[must_use]
 pub fn address(page: &Path) -> String {
     let page: PathBuf = std::path::absolute(page).unwrap_or_else(|_| page.to_owned());
     format!("file://{}", page.display())

@@ -42,7 +42,6 @@ pub fn next_stage(state: &mut State) {
 }
 
 /// Table of measurements as text, separated by tabs.
-#[must_use]
 pub fn chi_table(state: &State) -> Option<String> {
     let rows = measurements::rows(state);
     if rows.is_empty() {

@@ -19,7 +19,6 @@ use store::Relation;
 const MOST_KEPT: usize = 200;
 
 /// True if typed letters go into the editor.
-#[must_use]
 pub fn is_editing(state: &State) -> bool {
     state.nav.screen == Screen::Sql && !state.in_second_pane()
 }
@@ -41,7 +40,6 @@ impl SqlScreen {
     }
 
     /// All queries that are being written, with the present text in its place.
-    #[must_use]
     pub fn queries(&self) -> Queries {
         let mut queries = self.queries.clone();
         queries.texts.resize(queries.texts.len().max(queries.at + 1), String::new());
@@ -80,7 +78,6 @@ impl SqlScreen {
     }
 
     /// Relations that the query names, as far as they are known.
-    #[must_use]
     pub fn named(&self) -> Vec<&Relation> {
         let text = self.editor.text().to_lowercase();
         let words: Vec<&str> = text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
@@ -193,7 +190,6 @@ impl SqlScreen {
     }
 
     /// Selected row as text, separated by tabs.
-    #[must_use]
     pub fn selected_row(&self) -> Option<String> {
         let table = self.table.as_ref().filter(|table| table.len() > 0)?;
         Some(table.copied(std::iter::once(table.row)))

@@ -21,7 +21,6 @@ use sim::fabric::USUAL as USUAL_FABRIC;
 use store::{Cell, FitCell, JobId, Status};
 
 /// True if a place of the grid matches the filter.
-#[must_use]
 pub fn is_match(state: &State, place: Place) -> bool {
     let filter = state.filter_of(Screen::Study);
     let (Some(data), Some(grid)) = (&state.data, state.grid()) else { return false };
@@ -52,7 +51,6 @@ pub fn ease_text(fit: &FitCell) -> String {
 }
 
 /// All places of the grid, row by row.
-#[must_use]
 pub fn places(state: &State) -> Vec<Place> {
     let Some(grid) = state.grid() else { return vec![] };
     let (sizes, simulators, subjects) = (grid.sizes.len(), grid.simulators.len(), grid.subjects.len());
@@ -61,13 +59,11 @@ pub fn places(state: &State) -> Vec<Place> {
 }
 
 /// Jobs of all cells, row by row.
-#[must_use]
 pub fn grid_jobs(state: &State) -> Vec<JobId> {
     places(state).into_iter().filter_map(|place| state.data.as_ref()?.cell_at(place)?.job).collect()
 }
 
 /// Jobs of the cells that match the filter, row by row.
-#[must_use]
 pub fn matching_jobs(state: &State) -> Vec<JobId> {
     let places = places(state).into_iter().filter(|place| is_match(state, *place));
     places.filter_map(|place| state.data.as_ref()?.cell_at(place)?.job).collect()

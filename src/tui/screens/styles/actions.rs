@@ -24,7 +24,6 @@ fn outfits_of<'a>(state: &'a State, style: &str) -> Vec<&'a OutfitRow> {
 
 /// Mark of a style in lists, whole and short: its first outfit, with its place among the layers, the inmost 1. Empty for
 /// a style of no outfit.
-#[must_use]
 pub fn outfit_marks(state: &State, style: &str) -> [String; 2] {
     let outfits = outfits_of(state, style);
     let Some(first) = outfits.first() else { return Default::default() };
@@ -35,7 +34,6 @@ pub fn outfit_marks(state: &State, style: &str) -> [String; 2] {
 }
 
 /// Outfits of a style in words, the inmost layer first.
-#[must_use]
 pub fn outfit_lines(state: &State, style: &str) -> Vec<String> {
     let line = |outfit: &OutfitRow| {
         let layers: Vec<&str> = outfit.layers.iter().map(|(_, style)| style.as_str()).collect();
@@ -48,7 +46,6 @@ pub fn outfit_lines(state: &State, style: &str) -> Vec<String> {
 
 impl StylesScreen {
     /// Sizes that pass the filter.
-    #[must_use]
     pub fn sizes<'a>(&self, state: &'a State) -> Vec<&'a SizeRow> {
         let Some(data) = &state.data else { return vec![] };
         let filter = state.filter_of(Screen::Styles);
@@ -61,7 +58,6 @@ impl StylesScreen {
     }
 
     /// Marks of a size: of the study, not saved, and the number of its proposed seams.
-    #[must_use]
     pub fn marks_of(&self, state: &State, row: &SizeRow) -> [String; 3] {
         let is_used = state.study().is_some_and(|study| study.garments.contains(&row.style));
         let mark = |is_set: bool, mark: &str| if is_set { mark } else { " " }.to_owned();
@@ -70,7 +66,6 @@ impl StylesScreen {
     }
 
     /// Selected size. Where it is not shown: another size of its style, or the first of the list.
-    #[must_use]
     pub fn size_row<'a>(&self, state: &'a State) -> Option<&'a SizeRow> {
         let sizes = self.sizes(state);
         let (style, size) = self.selected.as_ref().map_or(("", ""), |(style, size)| (style, size));
@@ -79,7 +74,6 @@ impl StylesScreen {
     }
 
     /// Layout of the selected size, or the reason why there is none; `None` while it is being made.
-    #[must_use]
     pub fn layout(&self, state: &State) -> Option<Result<&SizeLayout, &str>> {
         let row = self.size_row(state)?;
         let Answered { request, outcome } = self.layout.as_ref()?;
@@ -88,13 +82,11 @@ impl StylesScreen {
     }
 
     /// Layout of the selected size; `None` where there is none.
-    #[must_use]
     pub fn laid_out(&self, state: &State) -> Option<&SizeLayout> {
         self.layout(state)?.ok()
     }
 
     /// True if the latest layout is that of the latest request.
-    #[must_use]
     pub fn is_current(&self) -> bool {
         self.layout
             .as_ref()
@@ -102,7 +94,6 @@ impl StylesScreen {
     }
 
     /// Selected line of the table.
-    #[must_use]
     pub fn table_line(&self, state: &State) -> Option<TableLine> {
         let lines = self.laid_out(state)?.lines();
         lines.get(self.line).or(lines.last()).copied()
@@ -228,7 +219,6 @@ impl StylesScreen {
 }
 
 /// Revisions of a size's style and of the size itself.
-#[must_use]
 pub fn revisions(row: &SizeRow) -> String {
     format!("{}/{}", row.style_revision, row.revision)
 }
@@ -241,7 +231,6 @@ pub fn import_style(state: &mut State) {
 }
 
 /// Table of seams as text, separated by tabs.
-#[must_use]
 pub fn seam_table(layout: &SizeLayout) -> String {
     let desk = &layout.out.desk;
     let names = |chain: &[(usize, usize)]| chain.iter().map(|edge| desk.edge_name(*edge)).collect::<Vec<_>>().join("+");

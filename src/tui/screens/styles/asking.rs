@@ -27,7 +27,6 @@ pub const HINTS: &[(&str, &str)] = &[
 
 impl StylesScreen {
     /// The present question; `None` where nothing is asked, or where its edge or piece is gone.
-    #[must_use]
     pub fn asked(&self, state: &State) -> Option<Undecided> {
         let asking = self.asking?;
         let out = &self.laid_out(state)?.out;
@@ -45,7 +44,6 @@ impl StylesScreen {
     }
 
     /// Edges that the present question is about: its own; without any, those of the edges and pieces that its text names.
-    #[must_use]
     pub fn pointed(&self, state: &State) -> Vec<EdgeAt> {
         let (Some(asked), Some(layout)) = (self.asked(state), self.laid_out(state)) else { return vec![] };
         if asked.edges.is_empty() { named(&asked.text, layout) } else { asked.edges }
@@ -90,7 +88,6 @@ impl StylesScreen {
 
     /// The user's next question about pieces, as the same key is pressed again: first the selected piece, then the
     /// pieces that are left out, [`LEFT_OUT`] at a time.
-    #[must_use]
     pub fn next_of_piece(&self, state: &State) -> Own {
         let left_out = self.laid_out(state).map_or(0, |layout| layout.out.desk.left_out.len());
         let next = match self.asking.and_then(|asking| asking.own) {
@@ -167,14 +164,12 @@ impl StylesScreen {
     }
 
     /// True if a question is asked on the shown screen.
-    #[must_use]
     pub fn is_asking(&self, state: &State) -> bool {
         state.nav.screen == Screen::Styles && self.asking.is_some()
     }
 }
 
 /// Edges that a text names; without any, those of the pieces that it names.
-#[must_use]
 pub fn named(text: &str, layout: &SizeLayout) -> Vec<EdgeAt> {
     let is_part = |letter: char| letter.is_alphanumeric() || "_.-".contains(letter);
     let words: Vec<&str> = text.split(|letter: char| !is_part(letter)).map(|word| word.trim_end_matches('.')).collect();

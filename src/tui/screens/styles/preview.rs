@@ -32,7 +32,6 @@ impl StylesScreen {
     }
 
     /// Fabric in which the shown study wears the selected style; `None` where it does not.
-    #[must_use]
     pub fn cloth<'a>(&self, state: &'a State) -> Option<&'a String> {
         state.data.as_ref()?.cloths.get(&self.size_row(state)?.style)
     }
@@ -110,7 +109,6 @@ impl StylesScreen {
     }
 
     /// Picture of the preview, with its area.
-    #[must_use]
     pub fn previewed(&self, state: &State, area: Rect) -> Vec<(Pictured, Rect)> {
         let number = self.preview.seen.as_ref().filter(|seen| seen.outcome.is_ok()).map(|seen| seen.request.number);
         let pane = self

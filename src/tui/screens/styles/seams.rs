@@ -238,7 +238,6 @@ impl StylesScreen {
     }
 
     /// Seam file of the selected size with its edits, for the user's editor.
-    #[must_use]
     pub fn seam_file(&self, state: &State) -> Option<Writing> {
         let request = self.layout_request(state)?;
         let stored = self.laid_out(state).and_then(|layout| layout.stored.clone());
@@ -263,7 +262,6 @@ impl StylesScreen {
     }
 
     /// Names of the styles with unsaved edits.
-    #[must_use]
     pub fn unsaved(&self) -> String {
         self.edits.keys().cloned().collect::<Vec<_>>().join(", ")
     }

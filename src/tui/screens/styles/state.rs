@@ -118,7 +118,6 @@ pub enum TableLine {
 
 impl SizeLayout {
     /// Lines of the table: seams, questions about none of them, measurements.
-    #[must_use]
     pub fn lines(&self) -> Vec<TableLine> {
         let seams = (0..self.out.desk.seams.len()).map(TableLine::Seam);
         let questions = self.out.undecided.iter().enumerate().filter(|(_, question)| question.seam.is_none());
@@ -127,20 +126,17 @@ impl SizeLayout {
     }
 
     /// Index of the seam that an edge is in; `None` for an edge in no seam.
-    #[must_use]
     pub fn seam_at(&self, edge: EdgeAt) -> Option<usize> {
         self.out.desk.seams.iter().position(|seam| seam.a.contains(&edge) || seam.b.contains(&edge))
     }
 
     /// Label of an edge in the picture: its number, and the letter of its seam.
-    #[must_use]
     pub fn label(&self, edge: EdgeAt) -> String {
         let seam = self.seam_at(edge).map_or(String::new(), |seam| letter(seam).to_string());
         format!("{}{seam}", self.out.desk.edge(edge).number)
     }
 
     /// Edges as the picture labels them, with their lengths; a piece all of whose edges are meant by its name.
-    #[must_use]
     pub fn named(&self, edges: &[EdgeAt]) -> String {
         let pieces = self.out.desk.pieces.iter().enumerate();
         let of_piece = pieces.filter_map(|(piece, drawn)| {
@@ -157,7 +153,6 @@ impl SizeLayout {
     }
 
     /// Sentences on what stays unsewn: edges in no seam, pieces without any seam, pieces that are left out.
-    #[must_use]
     pub fn left_open(&self) -> String {
         let desk = &self.out.desk;
         let loose = desk.pieces.iter().filter(|piece| piece.edges.iter().all(|edge| edge.seam.is_none()));

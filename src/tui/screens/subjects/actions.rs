@@ -13,7 +13,6 @@ use wardrobe::{Part, SubjectRow};
 
 impl SubjectsScreen {
     /// Subjects that pass the filter, in the order of the list.
-    #[must_use]
     pub fn shown<'a>(&self, state: &'a State) -> Vec<&'a SubjectRow> {
         let Some(data) = &state.data else { return vec![] };
         let filter = state.filter_of(Screen::Subjects);
@@ -34,13 +33,11 @@ impl SubjectsScreen {
     }
 
     /// Index of the selected subject in the list; 0 where the chosen subject is not shown.
-    #[must_use]
     pub fn index_in(&self, shown: &[&SubjectRow]) -> usize {
         shown.iter().position(|row| Some(&row.name) == self.chosen.as_ref()).unwrap_or(0)
     }
 
     /// The selected subject.
-    #[must_use]
     pub fn selected<'a>(&self, state: &'a State) -> Option<&'a SubjectRow> {
         let shown = self.shown(state);
         shown.get(self.index_in(&shown)).copied()
@@ -71,7 +68,6 @@ impl SubjectsScreen {
     }
 
     /// Selected subject as text, separated by tabs.
-    #[must_use]
     pub fn line(&self, state: &State) -> Option<String> {
         let subject = self.selected(state)?;
         let value = |field: &Field<Measurements>| {
@@ -89,7 +85,6 @@ fn words(row: &SubjectRow) -> String {
 }
 
 /// Text of a measurement: lengths in whole mm, weights with one decimal.
-#[must_use]
 pub fn number(value: Option<f64>, key: &str) -> String {
     match value {
         None => "—".to_owned(),

@@ -24,7 +24,6 @@ pub enum SubjectOrder {
 
 impl SubjectOrder {
     /// Order after this one, for the key that sorts; `measurements` is their number.
-    #[must_use]
     pub fn next(self, measurements: usize) -> Self {
         match self {
             Self::Name => Self::Sex,
