@@ -158,17 +158,18 @@ fn undone(fault: &Fault, edge_mm: f64, folder: &Path) -> Outcome<String> {
         is_nest: false,
         standard: Standard::Aama,
     };
-    let stands = advice::standing(&sound, &wish)?;
+    let stands = toile::advice::standing(&sound, &wish)?;
     let moves: Vec<(Handle, f64)> = fault.handles.iter().map(|(handle, mm)| (*handle, 1e-3 * mm)).collect();
     let spoilt = study_of(fault, &moves, edge_mm, &folder.join("spoilt"))?;
     // A spoilt garment may not reach a level that the sound one covers.
-    let known = advice::standing(&spoilt, &wish)?;
-    let is_known = |one: &&advice::Standing| one.unit == "mm" && known.iter().any(|other| other.name == one.name);
+    let known = toile::advice::standing(&spoilt, &wish)?;
+    let is_known =
+        |one: &&toile::advice::Standing| one.unit == "mm" && known.iter().any(|other| other.name == one.name);
     let asked = stands.iter().filter(is_known).map(|one| {
         let within = if one.is_ease { EASE_WITHIN } else { DRAPE_WITHIN };
         (one.name.clone(), [one.value - within, one.value + within])
     });
-    let found = advice::alter(&spoilt, &Wish { targets: asked.collect(), ..wish })?;
+    let found = toile::advice::alter(&spoilt, &Wish { targets: asked.collect(), ..wish })?;
     let moved: Vec<String> = found.moves.iter().map(|one| format!("{} {:+.1}", one.handle, one.amount_mm)).collect();
     let missed = found.readings.iter().filter(|one| !one.is_met()).count();
     let (dxf, seams) = (file(&found.files, ".dxf")?, file(&found.files, ".toml")?);
