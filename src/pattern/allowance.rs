@@ -6,23 +6,19 @@ use geom::V2;
 use geom::polyline::{self_crossing, signed_area};
 use geom::units::mm;
 
-/// Greatest allowance, m. A wider margin is a facing.
+/// A wider margin is a facing.
 const GREATEST_M: f64 = 0.1;
-/// Extension of each offset edge beyond its ends, in allowances, so that neighbouring edges meet: at corners as sharp
-/// as 20 degrees.
+/// Extension of each offset edge beyond its ends, in allowances: edges meet at corners as sharp as 20 degrees.
 const CARRIED_ON: f64 = 6.0;
 
-/// A closed line offset inwards.
 #[derive(Clone, Debug, PartialEq)]
 struct Inset {
-    /// Vertices.
     line: Vec<V2>,
-    /// Positions of the corners on the line.
     corners: Vec<V2>,
 }
 
-/// Offsets a closed counter-clockwise line inwards, by one distance, m, for each edge between neighbouring `corners`.
-/// `None` if the result would cross itself or turn inside out.
+/// Offsets a counter-clockwise line inwards by one distance for each edge between neighbouring `corners`. `None` if the
+/// result would cross itself or turn inside out.
 fn inset(ring: &[V2], corners: &[usize], distance_m: &[f64]) -> Option<Inset> {
     let (n, count) = (ring.len(), corners.len());
     let carried_m = CARRIED_ON * distance_m.iter().map(|d| d.abs()).fold(0.0, f64::max);
@@ -69,17 +65,13 @@ fn moved_edge(points: &[V2], distance_m: f64, carried_m: f64) -> Option<Vec<V2>>
     Some(line)
 }
 
-/// Intersection of an offset edge with the next one.
 struct Meeting {
-    /// Index of the segment of the edge.
     edge: usize,
-    /// Index of the segment of the next edge.
     next: usize,
     at: V2,
 }
 
-/// Intersection of the end of one line with the beginning of the other. If there are several, the one that cuts off
-/// least of both lines.
+/// If there are several, the intersection that cuts off least of both lines.
 fn meeting(edge: &[V2], next: &[V2], carried_m: f64) -> Option<Meeting> {
     let mut best: Option<(f64, Meeting)> = None;
     let mut behind = 0.0;
@@ -112,7 +104,7 @@ fn meeting(edge: &[V2], next: &[V2], carried_m: f64) -> Option<Meeting> {
         .or_else(|| ((edge[edge.len() - 2] - next[1]).norm() < 0.5 * carried_m).then(straight))
 }
 
-/// Parameters in 0..=1 at which two segments cross.
+/// Parameters in 0..=1.
 fn crossing([a, b]: [V2; 2], [c, d]: [V2; 2]) -> Option<(f64, f64)> {
     let (u, v) = (b - a, d - c);
     let turn = u.perp(&v);
@@ -123,7 +115,6 @@ fn crossing([a, b]: [V2; 2], [c, d]: [V2; 2]) -> Option<(f64, f64)> {
     ((0.0..=1.0).contains(&t) && (0.0..=1.0).contains(&s)).then_some((t, s))
 }
 
-/// The point of a closed line that is nearest to a given point.
 fn nearest(ring: &[V2], point: V2) -> V2 {
     let on_side = |k: usize| {
         let (a, along) = (ring[k], ring[(k + 1) % ring.len()] - ring[k]);
@@ -134,8 +125,8 @@ fn nearest(ring: &[V2], point: V2) -> V2 {
 }
 
 impl Piece {
-    /// Returns the piece with a sew line at the distance `allowance_m` inside its cut line, and with turn points and
-    /// notches on the sew line. A piece that has a sew line stays as it is.
+    /// Returns the piece with a sew line inside its cut line, and with turn points and notches on the sew line. A piece
+    /// that has a sew line stays as it is.
     pub fn with_allowance(mut self, allowance_m: f64) -> Result<Self, String> {
         if self.sew_line.is_some() || allowance_m == 0.0 {
             return Ok(self);
@@ -149,9 +140,8 @@ impl Piece {
         Ok(self)
     }
 
-    /// Adds a sew line to a piece without one: inside the cut line by one distance, m, for each edge between
-    /// neighbouring vertices `corners`. The corners of the sew line become the turn points, and the notches move onto
-    /// it.
+    /// Adds a sew line to a piece without one, by one distance for each edge between neighbouring vertices `corners`.
+    /// The corners of the sew line become the turn points, and the notches move onto it.
     pub(crate) fn cut_at(&mut self, corners: &[usize], distances_m: &[f64]) -> Result<(), String> {
         if let Some(refused_m) = distances_m.iter().find(|distance| !(0.0..=GREATEST_M).contains(*distance)) {
             return Err(format!("found an allowance of {} mm; accepted: 0 to {} mm", mm(*refused_m), mm(GREATEST_M)));

@@ -10,16 +10,15 @@ use super::propose::{self, Face, Hand, Pose};
 use super::style::{Style, StylePiece};
 use geom::V2;
 
-/// Clearance between pieces, and round the head, m.
+/// Clearance between pieces, and round the head.
 const GAP_M: f64 = 0.06;
-/// Greatest angle by which a piece is turned to set its grain line straight. A piece with a grain line further off is
-/// cut on the bias.
+/// Greatest angle by which a piece is turned to set its grain line straight. Further off, it is cut on the bias.
 const STRAIGHTEN_DEG: f64 = 30.0;
 
 /// Rigid placement of a piece in the layout.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placed {
-    /// Rotation of the piece, counter-clockwise, radians.
+    /// Counter-clockwise, radians.
     pub turn: f64,
     /// Translation after the rotation, m.
     pub shift: V2,
@@ -37,10 +36,8 @@ fn turned(p: V2, angle: f64) -> V2 {
     V2::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y)
 }
 
-/// Properties of a piece that decide its placement.
 struct Piece {
-    /// Row from the head down: 0 trunk, 1 waistband, 2 skirt or leg. `None` for a whole sleeve, and for a piece of
-    /// unknown role.
+    /// Row from the head down: 0 trunk, 1 waistband, 2 skirt or leg. `None` for a whole sleeve or an unknown role.
     level: Option<usize>,
     face: Option<Face>,
     hand: Option<Hand>,
@@ -91,7 +88,7 @@ impl Piece {
     }
 }
 
-/// Front or back, and the wearer's side: from the role, or else from the identifier and the outline.
+/// From the role, or else from the identifier and the outline.
 fn face_and_hand(piece: &StylePiece, pose: Option<&Pose>) -> (Option<Face>, Option<Hand>) {
     let (named_face, named_hand) = propose::named_face_and_hand(&piece.id);
     let face = match piece.role {
@@ -109,14 +106,13 @@ fn face_and_hand(piece: &StylePiece, pose: Option<&Pose>) -> (Option<Face>, Opti
     (face, hand)
 }
 
-/// Smallest rotation that sets a grain line along an axis, radians. Zero for a grain on the bias.
+/// Smallest rotation that sets a grain line along an axis, radians; 0 for a grain on the bias.
 fn straightening(grain: V2) -> f64 {
     let off = grain.y.atan2(grain.x).to_degrees().rem_euclid(90.0);
     let turn = if off > 45.0 { 90.0 - off } else { -off };
     if turn.abs() <= STRAIGHTEN_DEG { turn.to_radians() } else { 0.0 }
 }
 
-/// Places every piece of a style, in the order of its pieces.
 pub fn arrange(style: &Style) -> Vec<Placed> {
     let pieces: Vec<Piece> = style.pieces.iter().map(Piece::of).collect();
     let mut placed: Vec<Placed> = pieces.iter().map(|piece| Placed { turn: piece.turn, shift: V2::zeros() }).collect();
@@ -161,7 +157,6 @@ pub fn arrange(style: &Style) -> Vec<Placed> {
     placed
 }
 
-/// Returns the style with every piece moved to its place in the layout.
 pub fn arranged(style: &Style) -> Style {
     let mut moved = style.clone();
     for (piece, placed) in moved.pieces.iter_mut().zip(arrange(style)) {
@@ -216,7 +211,6 @@ mod tests {
     use super::*;
     use crate::draft::Model;
 
-    /// Bounding box of a placed piece, by its identifier.
     fn boxes(style: &Style) -> Vec<(String, V2, V2)> {
         let placed = arrange(style);
         let box_of = |(piece, placed): (&StylePiece, &Placed)| {

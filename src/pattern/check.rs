@@ -14,7 +14,7 @@ use geom::units::mm;
 
 /// Ratio of the lengths of its two sides from which a seam counts as gathered.
 const GATHERED_RATIO: f64 = 1.2;
-/// Greatest distance of a notch from the edge that it marks, m.
+/// Greatest distance of a notch from the edge that it marks.
 const ON_EDGE_M: f64 = 12e-3;
 /// Least improvement of the notch match by reversing one side for a finding, as a share of the seam.
 const TURNED_GAIN: f64 = 0.05;
@@ -22,15 +22,12 @@ const TURNED_GAIN: f64 = 0.05;
 /// Something that a person should look at.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Finding {
-    /// Kind of the finding.
     pub kind: FindingKind,
     /// Name of the seam, edge, piece or measurement.
     pub place: String,
-    /// Description, for messages.
     pub found: String,
 }
 
-/// Kind of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FindingKind {
@@ -38,20 +35,18 @@ pub enum FindingKind {
     FreeEdge,
     /// Drawn piece that the seam file does not use.
     UnusedPiece,
-    /// Seam whose longer side is gathered onto the shorter one.
     Gathered,
-    /// Seam of which one side seems to run in the wrong direction.
+    /// One side seems to run in the wrong direction.
     Direction,
     /// Measurement called `closed_girth` that does not close, or `open_length` that closes.
     Loop,
-    /// Style without a girth at chest or hip, so that no size can be judged on a body.
+    /// No girth at chest or hip, so that no size can be judged on a body.
     FitLevel,
     /// Length that breaks the progression of the sizes.
     Leap,
 }
 
 impl FindingKind {
-    /// Kind in words, for messages.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::FreeEdge => "free edge",
@@ -70,7 +65,6 @@ impl FindingKind {
     }
 }
 
-/// Findings on a style that `pieces` make with the entries of a seam file.
 pub fn findings(pieces: &[Piece], entries: &SeamFile, style: &Style) -> Vec<Finding> {
     let is_left_out = |piece: &Piece| Finding {
         kind: FindingKind::UnusedPiece,
@@ -105,8 +99,7 @@ fn edges_of(path: &[PathPart]) -> impl Iterator<Item = EdgeRef> {
     })
 }
 
-/// Findings on a meshed garment: measurements that close or not against their kind, and a missing girth at chest and
-/// hip.
+/// Measurements that close or not against their kind, and a missing girth at chest and hip.
 pub fn of_garment(style: &Style, garment: &Garment) -> Vec<Finding> {
     let welded = welded(garment);
     let mut findings = Vec::new();
@@ -160,7 +153,6 @@ fn welded(garment: &Garment) -> Vec<usize> {
     }
 }
 
-/// Drawn pieces that a seam file does not name.
 pub(super) fn unused<'p>(pieces: &'p [Piece], entries: &SeamFile) -> Vec<&'p Piece> {
     let made_on = entries.size.as_deref();
     let used: BTreeSet<usize> =
@@ -182,8 +174,8 @@ fn gathered(style: &Style, seam: &Seam) -> Option<Finding> {
     })
 }
 
-/// Finding on a seam of which one side seems reversed. Outlines are counter-clockwise, so the sides of a seam must run
-/// in opposite directions. If they do, one side still seems reversed where the notches match better that way.
+/// Outlines are counter-clockwise, so the sides of a seam must run in opposite directions. If they do, one side still
+/// seems reversed where the notches match better that way.
 fn turned(style: &Style, seam: &Seam) -> Option<Finding> {
     let found = if seam.b_forwards {
         "both sides run counter-clockwise: one of the pieces is sewn inside out".to_owned()
@@ -200,7 +192,7 @@ fn turned(style: &Style, seam: &Seam) -> Option<Finding> {
     Some(Finding { kind: FindingKind::Direction, place: seam.name.clone(), found })
 }
 
-/// Positions of the notches along one side of a seam in the direction of sewing, as shares of its length.
+/// In the direction of sewing, as shares of its length.
 fn notch_shares(style: &Style, chain: &[EdgeRef], is_forwards: bool) -> Vec<f64> {
     let total = length(style, chain);
     let mut shares = Vec::new();
@@ -216,8 +208,8 @@ fn notch_shares(style: &Style, chain: &[EdgeRef], is_forwards: bool) -> Vec<f64>
     shares
 }
 
-/// Arc length of the vertex of an edge that is nearest to a notch, m. `None` if that vertex is an end of the edge, or
-/// the notch lies on another edge.
+/// Arc length of the vertex nearest to a notch, m. `None` if that vertex is an end of the edge, or the notch lies on
+/// another edge.
 fn arc_of(line: &Polyline, notch: &Notch) -> Option<f64> {
     let distance = |i: &usize| (line.points()[*i] - notch.at).norm();
     let nearest = (0..line.points().len()).min_by(|i, j| distance(i).total_cmp(&distance(j)))?;

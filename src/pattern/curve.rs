@@ -2,10 +2,10 @@
 
 use geom::V2;
 
-/// Segments of each drawn curve: chord error below 0.01 mm on the longest.
+/// Chord error below 0.01 mm on the longest curve.
 pub const CURVE_SEGMENTS: usize = 48;
 
-/// Points of a cubic Bezier curve, evenly spaced in its parameter.
+/// Points evenly spaced in the parameter.
 pub fn bezier(control: [V2; 4]) -> Vec<V2> {
     let [a, b, c, d] = control;
     (0..=CURVE_SEGMENTS)
@@ -17,12 +17,11 @@ pub fn bezier(control: [V2; 4]) -> Vec<V2> {
         .collect()
 }
 
-/// Length of a curve given by its points.
 pub fn length(curve: &[V2]) -> f64 {
     curve.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum()
 }
 
-/// Root of an increasing function in `low..high`, by 60 bisections, which reach the rounding of the numbers.
+/// Root of an increasing function in `low..high`, by 60 bisections, which reach rounding.
 pub fn bisect(mut low: f64, mut high: f64, increasing: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
@@ -35,8 +34,7 @@ pub fn bisect(mut low: f64, mut high: f64, increasing: impl Fn(f64) -> f64) -> f
     0.5 * (low + high)
 }
 
-/// Points of a circular arc of a given length that starts at the origin along `+u`. `angle` is the total turning,
-/// radians, positive upwards and not zero.
+/// Circular arc from the origin along `+u`. `angle` is the total turning, radians, positive upwards and not zero.
 pub fn arc(length: f64, angle: f64) -> Vec<V2> {
     let radius = length / angle;
     let point_at = |turned: f64| V2::new(radius * turned.sin(), radius * (1.0 - turned.cos()));

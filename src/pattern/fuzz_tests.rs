@@ -5,11 +5,9 @@ use super::draft::{Model, TshirtSize, tshirt};
 use super::features::Features;
 use super::{Style, dxf, garmentcode, grade, info, propose, source};
 
-/// Greatest number of points that a small damaged file may become: a multiple of that of the entity with the most
-/// chords.
+/// Limit for a small damaged file: a multiple of that of the entity with the most chords.
 const MOST_POINTS: usize = 100_000;
 
-/// Significant tokens of pattern formats.
 const TOKENS: [&str; 46] = [
     "0\nSECTION\n",
     "0\nENDSEC\n",
@@ -59,7 +57,7 @@ const TOKENS: [&str; 46] = [
     "RULE: DELTA 1\n",
 ];
 
-/// Small generator of pseudo-random numbers (xorshift64*, [Marsaglia]).
+/// Xorshift64* [Marsaglia].
 struct Random(u64);
 
 impl Random {
@@ -70,7 +68,7 @@ impl Random {
         (self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 33) as usize % bound.max(1)
     }
 
-    /// Damages a file in one to three places.
+    /// Changes one to three places.
     fn damage(&mut self, bytes: &mut Vec<u8>) {
         for _ in 0..1 + self.below(3) {
             let at = self.below(bytes.len());
@@ -105,7 +103,7 @@ impl Random {
     }
 }
 
-/// A drawing of one small block, with every kind of entity.
+/// One small block with every kind of entity.
 const DRAWING: &str = "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n8\n0\n2\nP\n10\n0\n20\n0\n0\nLWPOLYLINE\n8\n1\n90\n3\n70\n1\n10\n0\n20\n0\n42\n0.2\n\
 10\n90\n20\n0\n42\n0\n10\n90\n20\n90\n42\n0\n0\nPOLYLINE\n8\n8\n66\n1\n70\n0\n0\nVERTEX\n8\n8\n10\n50\n20\n10\n0\nVERTEX\n8\n8\n10\n60\n20\n20\n\
 0\nSEQEND\n8\n8\n0\nPOINT\n8\n4\n10\n0\n20\n0\n30\n4\n0\nTEXT\n8\n1\n10\n9\n20\n9\n40\n3\n1\n# 1\n0\nARC\n8\n14\n10\n50\n20\n20\n40\n5\n50\n0\n\
@@ -117,7 +115,7 @@ LINE\n8\n1\n10\n300\n20\n0\n11\n300\n21\n90\n0\nLINE\n8\n1\n10\n300\n20\n90\n11\
 const RULES: &str =
     "UNITS: METRIC\nNUMBER OF SIZES: 2\nSIZE LIST: S M\nSAMPLE SIZE: S\nRULE: DELTA 1\n0.0, 0.0  5.0, 5.0\nEND\n";
 
-/// Reads damaged copies of a file, and returns the number of those that could still be read.
+/// Reads damaged copies, and returns the number of those that could still be read.
 fn survivors(whole: &[u8], rounds: usize, seed: u64, mut is_read: impl FnMut(&[u8]) -> bool) -> usize {
     assert!(is_read(whole), "the whole file reads");
     let mut random = Random(seed);
@@ -129,7 +127,7 @@ fn survivors(whole: &[u8], rounds: usize, seed: u64, mut is_read: impl FnMut(&[u
     damaged.count()
 }
 
-/// Reads a pattern and checks that it is not larger than its bytes allow.
+/// Checks also that the pattern is not larger than its bytes allow.
 fn reads_pattern(bytes: &[u8]) -> bool {
     let Ok(file) = source::read(bytes, "a", Some(dxf::Unit::Mm)) else { return false };
     let points: usize = file.pieces.iter().map(|piece| piece.outline.len()).sum();

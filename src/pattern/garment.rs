@@ -8,46 +8,39 @@ use std::ops::Range;
 
 use geom::{V2, V3};
 
-/// Part of the garment that a piece is, which decides where the piece is placed about the body.
+/// Part of the garment, which decides where the piece is placed about the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Role {
-    /// Front of the trunk.
+    /// Of the trunk.
     Front,
-    /// Back of the trunk.
+    /// Of the trunk.
     Back,
-    /// Sleeve of the subject's right arm.
+    /// Of the subject's right arm.
     SleeveRight,
-    /// Sleeve of the subject's left arm.
+    /// Of the subject's left arm.
     SleeveLeft,
-    /// Front of the right leg.
     LegFrontRight,
-    /// Front of the left leg.
     LegFrontLeft,
-    /// Back of the right leg.
     LegBackRight,
-    /// Back of the left leg.
     LegBackLeft,
-    /// Right leg in one piece.
+    /// Leg in one piece.
     LegRight,
-    /// Left leg in one piece.
+    /// Leg in one piece.
     LegLeft,
-    /// Front of a bodice that ends in a seam.
+    /// Ends in a seam.
     BodiceFront,
-    /// Back of a bodice that ends in a seam.
+    /// Ends in a seam.
     BodiceBack,
-    /// Front of a skirt.
     SkirtFront,
-    /// Back of a skirt.
     SkirtBack,
-    /// Band round the waist.
     Waistband,
     /// None of these, or unknown.
     Other,
 }
 
 impl Role {
-    /// All roles, in the order in which they are offered.
+    /// In the order in which they are offered.
     pub const ALL: [Self; 16] = [
         Self::Front,
         Self::Back,
@@ -67,7 +60,7 @@ impl Role {
         Self::Other,
     ];
 
-    /// Name of the role in seam files.
+    /// Name in seam files.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Front => "front",
@@ -89,82 +82,73 @@ impl Role {
         }
     }
 
-    /// Role with a given name in seam files.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|role| role.as_str() == name)
     }
 }
 
-/// One triangulated piece: its ranges in the garment's arrays.
+/// One triangulated piece, by its ranges in the garment's arrays.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct PieceMesh {
-    /// Identifier within the garment (`front`, `sleeve_right`, ...).
+    /// Such as `front`, `sleeve_right`.
     pub id: String,
-    /// Part of the garment that the piece is.
     pub role: Role,
-    /// Range of its vertices in [`Garment::rest`].
+    /// Range in [`Garment::rest`].
     pub vertices: Range<usize>,
-    /// Range of its triangles in [`Garment::triangles`].
+    /// Range in [`Garment::triangles`].
     pub triangles: Range<usize>,
-    /// Unit vector of the warp (grain line) in the piece's plane.
+    /// Unit vector of the warp in the piece's plane.
     pub grain: V2,
-    /// Vertices of the named boundary edges, counter-clockwise, including the corners at both ends.
+    /// Vertices of the named edges, counter-clockwise, with the corners at both ends.
     pub edges: BTreeMap<String, Vec<usize>>,
 }
 
-/// A seam: pairs of vertices that become one vertex when sewn.
+/// Pairs of vertices that become one when sewn.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct SeamMesh {
-    /// Name in the seam file.
     pub name: String,
-    /// Vertex pairs, in order along the seam.
+    /// In order along the seam.
     pub pairs: Vec<[usize; 2]>,
 }
 
 impl SeamMesh {
-    /// Segments between neighbouring pairs: two vertices on either side. Where one side passes a corner, the other may
-    /// repeat its vertex or jump.
+    /// Segments between neighbouring pairs. Where one side passes a corner, the other may repeat its vertex or jump.
     pub fn stitches(&self) -> impl Iterator<Item = [[usize; 2]; 2]> {
         self.pairs.windows(2).map(|ends| [0, 1].map(|side| [ends[0][side], ends[1][side]]))
     }
 }
 
-/// A point of the cloth: barycentric coordinates in one triangle. The weights sum to 1.
+/// Barycentric coordinates in one triangle. The weights sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MaterialPoint {
-    /// Vertices of the triangle, by their index in the garment.
     pub vertices: [usize; 3],
-    /// Barycentric weight of each vertex.
     pub weights: [f64; 3],
 }
 
 impl MaterialPoint {
-    /// Position of the point when the vertices are at `positions`.
     pub fn at(&self, positions: &[V3]) -> V3 {
         (0..3).map(|k| positions[self.vertices[k]] * self.weights[k]).sum()
     }
 
-    /// Position of the point in the plane of its piece.
+    /// Position in the plane of the piece.
     pub fn at_rest(&self, rest: &[V2]) -> V2 {
         (0..3).map(|k| rest[self.vertices[k]] * self.weights[k]).sum()
     }
 }
 
-/// A connected measurement line on the cloth, within one piece.
+/// Connected measurement line within one piece.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MaterialLine {
-    /// Points in order, at least two.
+    /// At least two, in order.
     pub points: Vec<MaterialPoint>,
-    /// Pattern length of each segment, m: the arc of the drawn curve, not its chord. There is one fewer than `points`.
+    /// Pattern length of each segment: the arc of the drawn curve, not its chord. One fewer than `points`.
     pub arc_m: Vec<f64>,
 }
 
 impl MaterialLine {
-    /// Length of the line, m, when the vertices are at `positions`. `rest` are the vertices in the planes of the
-    /// pieces.
-    ///
-    /// The sum of `arc_m` times the stretch of each segment, which is its arc on the drape divided by its arc in the
-    /// flat mesh (`arcs`). An unstretched garment therefore has its pattern length exactly, however coarse its mesh.
+    /// Length of the drape at `positions`: the sum of `arc_m` times the stretch of each segment, which is its arc on
+    /// the drape divided by its arc in the flat mesh (`arcs`). An unstretched garment has its pattern length exactly,
+    /// however coarse its mesh.
     pub fn length_m(&self, rest: &[V2], positions: &[V3]) -> f64 {
         let ways = |points: &[V3]| -> Vec<V3> { points.windows(2).map(|ends| ends[1] - ends[0]).collect() };
         let flat = ways(&self.points.iter().map(|p| p.at_rest(rest).push(0.0)).collect::<Vec<_>>());
@@ -174,13 +158,12 @@ impl MaterialLine {
         self.arc_m.iter().zip(flat.iter().zip(&draped)).map(|(arc, (flat, draped))| arc * draped / flat).sum()
     }
 
-    /// Returns the line with its vertices renumbered.
     fn renumbered(&self, name: impl Fn(&usize) -> usize) -> Self {
         let point = |point: &MaterialPoint| MaterialPoint { vertices: point.vertices.map(|v| name(&v)), ..*point };
         Self { points: self.points.iter().map(point).collect(), ..self.clone() }
     }
 
-    /// Returns the line after the pieces were redrawn: each arc changes as its chord does.
+    /// Each arc changes as its chord does.
     fn redrawn(&self, before: &[V2], after: &[V2]) -> Self {
         let chords = |rest: &[V2]| -> Vec<f64> {
             self.points.windows(2).map(|ends| (ends[1].at_rest(rest) - ends[0].at_rest(rest)).norm()).collect()
@@ -194,7 +177,7 @@ impl MaterialLine {
 /// saturates as e / (1 + e / bound).
 const MOST_EXCESS: f64 = 0.1;
 
-/// Arc lengths of the segments of a smooth line, m, with the chord vectors `ways` and the rest lengths `steps`, m.
+/// Arc lengths of the segments of a smooth line, m, from chord vectors `ways` and rest lengths `steps`, m.
 fn arcs(ways: &[V3], steps: &[f64]) -> Vec<f64> {
     ways.iter().zip(excesses(ways, steps)).map(|(way, excess)| (way.norm_squared() + excess).sqrt()).collect()
 }
@@ -221,111 +204,97 @@ pub fn excesses(ways: &[V3], steps: &[f64]) -> Vec<f64> {
     (0..steps.len()).map(excess).collect()
 }
 
-/// Closed or open measurement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MeasurementKind {
-    /// A closed loop round body or limb.
+    /// Loop round body or limb.
     ClosedGirth,
-    /// A length with two ends.
+    /// Has two ends.
     OpenLength,
 }
 
-/// A measurement of the style, traced on the mesh.
+/// Traced on the mesh.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Measurement {
-    /// Number in the style, such as 1 for `#1`.
+    /// 1 for `#1`.
     pub no: u32,
-    /// Name in the style, such as `Neck Opening`.
+    /// Such as `Neck Opening`.
     pub name: String,
-    /// Closed girth or open length.
     pub kind: MeasurementKind,
-    /// True if it runs along an edge that is in no seam.
+    /// True along an edge that is in no seam.
     pub is_free_edge: bool,
-    /// Pattern length L2D, m: the sum of all arcs.
+    /// Pattern length: the sum of all arcs.
     pub l2d_m: f64,
-    /// Lines on the mesh, whose lengths are summed.
+    /// Lines whose lengths are summed.
     pub runs: Vec<MaterialLine>,
 }
 
 impl Measurement {
-    /// Length L3D, m, when the vertices are at `positions`. `rest` are the vertices in the planes of the pieces.
+    /// Length L3D.
     pub fn length_m(&self, rest: &[V2], positions: &[V3]) -> f64 {
         self.runs.iter().map(|run| run.length_m(rest, positions)).sum()
     }
 }
 
-/// Girth of the pattern at a body level, from the `fit` entry of the style.
+/// Pattern girth at a body level, from the `fit` entry of the style.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct FitLevel {
-    /// Level of the body, such as `chest` or `hip`.
+    /// Such as `chest` or `hip`.
     pub level: String,
-    /// Girth of the pattern at that level, m.
     pub girth_m: f64,
-    /// Lines on the mesh, whose lengths are summed. Empty if the path leaves the cloth somewhere.
+    /// Lines whose lengths are summed. Empty if the path leaves the cloth somewhere.
     #[serde(default)]
     pub runs: Vec<MaterialLine>,
 }
 
-/// Kind of reinforcement of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Band {
-    /// A knitted rib, often cut shorter than the edge it is sewn to.
+    /// Often cut shorter than the edge it is sewn to.
     Rib,
-    /// A tape sewn along the edge.
     Tape,
-    /// Edge turned over and sewn.
     Hem,
-    /// A band round the waist.
     Waistband,
 }
 
 /// Reinforcement of a part of an edge.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Reinforcement {
-    /// Kind of the reinforcement.
     pub band: Band,
-    /// Force per relative elongation, N.
+    /// Force per relative elongation.
     pub stiffness_n: f64,
-    /// Ratio of the length of the band to that of the edge.
+    /// Ratio of the band to the edge.
     pub length_factor: f64,
-    /// Vertices of the garment along the edge, in order.
+    /// In order along the edge.
     pub vertices: Vec<usize>,
 }
 
 /// A sewable garment of one size, meshed.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Garment {
-    /// Name of the style, from its seam file.
+    /// From the seam file of the style.
     pub name: String,
-    /// Name of the size; empty if the file names none.
+    /// Empty if the file names none.
     pub size: String,
-    /// Pieces with the ranges of their vertices and triangles.
     pub pieces: Vec<PieceMesh>,
-    /// Vertex positions in the planes of their pieces, m.
+    /// Positions in the planes of the pieces, m.
     pub rest: Vec<V2>,
-    /// Vertices of each triangle, counter-clockwise seen from outside.
+    /// Counter-clockwise seen from outside.
     pub triangles: Vec<[usize; 3]>,
-    /// Seams as pairs of vertices that become one.
     pub seams: Vec<SeamMesh>,
-    /// Measurements of the style, traced on the mesh.
     pub measurements: Vec<Measurement>,
-    /// Girths of the pattern at levels of the body, for the fit.
     pub fit_levels: Vec<FitLevel>,
-    /// Reinforced edges as chains of vertices.
     #[serde(default)]
     pub reinforcements: Vec<Reinforcement>,
-    /// Target edge length of the mesher, m.
+    /// Target of the mesher.
     pub edge_length_m: f64,
 }
 
 /// A point on a piece, for messages.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spot {
-    /// Identifier of the piece.
     pub piece: String,
-    /// Point of the piece's plane, m.
+    /// In the piece's plane, m.
     pub at: V2,
 }
 
@@ -336,7 +305,7 @@ impl std::fmt::Display for Spot {
 }
 
 impl Garment {
-    /// Piece that holds most of some vertices, and the mean of their positions on it. `None` without vertices.
+    /// Piece that holds most of the vertices, and their mean position on it. `None` without vertices.
     pub fn spot(&self, vertices: &[usize]) -> Option<Spot> {
         let points_in = |piece: &PieceMesh| -> Vec<V2> {
             vertices.iter().filter(|v| piece.vertices.contains(v)).map(|&v| self.rest[v]).collect()
@@ -346,7 +315,7 @@ impl Garment {
         Some(Spot { piece: piece.id.clone(), at: points.iter().sum::<V2>() / points.len() as f64 })
     }
 
-    /// Puts garments side by side as one, not sewn to each other. Pieces, vertices and triangles keep their order.
+    /// Joins garments without sewing them. Pieces, vertices and triangles keep their order.
     pub fn beside(garments: &[&Self]) -> Self {
         let names: Vec<&str> = garments.iter().map(|garment| garment.name.as_str()).collect();
         let edge_length_m = garments.iter().map(|garment| garment.edge_length_m).fold(f64::MAX, f64::min);
@@ -380,8 +349,7 @@ impl Garment {
         all
     }
 
-    /// Returns the garment with its vertices moved in the planes of their pieces. Arcs of measurements scale with their
-    /// chords.
+    /// Moves the vertices in the planes of their pieces. Arcs of measurements scale with their chords.
     pub fn with_rest(&self, rest: Vec<V2>) -> Self {
         let redrawn = |line: &MaterialLine| line.redrawn(&self.rest, &rest);
         let length = |runs: &[MaterialLine]| runs.iter().flat_map(|run| &run.arc_m).sum::<f64>();
@@ -398,8 +366,7 @@ impl Garment {
         Self { measurements, fit_levels, rest, ..self.clone() }
     }
 
-    /// Returns the garment without some of its pieces and without measurements, and the original index of each of its
-    /// vertices.
+    /// Returns the garment without the pieces and without measurements, and the original index of each vertex.
     pub fn without(&self, gone: &[usize]) -> (Self, Vec<usize>) {
         let mut kept: Vec<usize> = Vec::new();
         let mut number = vec![None; self.rest.len()];

@@ -11,16 +11,15 @@ use crate::piece::{Notch, Piece};
 use geom::V2;
 use geom::units::from_mm;
 
-/// Pattern girth at the underarm, m.
+/// Pattern girth at the underarm.
 const BUST_M: f64 = 0.960;
-/// Depth of the back neck below the side-neck points, m.
+/// Below the side-neck points.
 const BACK_NECK_DROP_M: f64 = 0.045;
 
-/// The single size with its published lengths `#1` to `#11`, mm [T table 6-29].
+/// Published lengths `#1` to `#11`, mm [T table 6-29].
 pub(super) const SIZES: [(&str, [f64; 11]); 1] =
     [("ONE", [1036.40, 1104.24, 722.84, 437.95, 600.22, 58.41, 768.79, 605.61, 180.44, 179.35, 179.35])];
 
-/// Drafts the blocks `BODICE-FRONT`, `BODICE-BACK`, `SKIRT-FRONT` and `SKIRT-BACK`, all whole.
 pub(super) fn draft(size: &str, lengths_mm: [f64; 11]) -> Draft {
     let lengths = lengths_mm.map(from_mm);
     let [hem, seam, centre_front, armhole, neck, shoulder, centre_back, side, skirt_side, skirt_front, skirt_back] =
@@ -48,7 +47,7 @@ pub(super) fn draft(size: &str, lengths_mm: [f64; 11]) -> Draft {
     Draft::new("Womens dress", size, "JERSEY", pieces)
 }
 
-/// Half of the lower edge of the bodice, an arc at right angles to the side seam, and the underarm point.
+/// Half of the lower edge, an arc at right angles to the side seam, and the underarm point.
 fn bodice_side(half_seam: f64, side: f64) -> (Vec<V2>, V2) {
     let underarm = |flare: f64| {
         let lower = arc(half_seam, flare);
@@ -58,8 +57,7 @@ fn bodice_side(half_seam: f64, side: f64) -> (Vec<V2>, V2) {
     (arc(half_seam, flare), underarm(flare))
 }
 
-/// Drafts a skirt panel with its hem at `v = 0` on the centre line. `half_hem` and `half_seam` are half of its lower
-/// and upper edge, m.
+/// The hem is at `v = 0` on the centre line.
 fn skirt(block: &str, [half_hem, half_seam]: [f64; 2], centre: f64, side: f64) -> Piece {
     // An arc with a total turning equal to the slope of the side meets the side at a right angle.
     let hem = arc(half_hem, -(half_seam - half_hem) / centre);

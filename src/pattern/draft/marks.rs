@@ -4,12 +4,9 @@ use crate::piece::{Notch, Piece};
 use geom::V2;
 use geom::polyline::Polyline;
 
-/// Spacing of a double notch, m.
 pub const DOUBLE_NOTCH_M: f64 = 0.010;
-/// Depth of the notches, m.
 const NOTCH_DEPTH_M: f64 = 0.004;
 
-/// Net piece with only an outline.
 pub fn net(block: &str, quantity: &str, outline: Vec<V2>) -> Piece {
     Piece {
         block: block.to_owned(),
@@ -20,7 +17,7 @@ pub fn net(block: &str, quantity: &str, outline: Vec<V2>) -> Piece {
     }
 }
 
-/// Adds size and texts to a piece, and makes every vertex that is no turn point a curve point.
+/// Makes every vertex that is no turn point a curve point.
 pub fn finished(mut piece: Piece, size: &str, material: &str) -> Piece {
     let texts = [("Material", material), ("Annotation", "NET, NO SEAM ALLOWANCE")];
     piece.texts = texts.map(|(key, value)| (key.to_owned(), value.to_owned())).to_vec();
@@ -30,12 +27,11 @@ pub fn finished(mut piece: Piece, size: &str, material: &str) -> Piece {
     piece
 }
 
-/// Notch cut in a given direction.
 pub fn notch(at: V2, angle_deg: f64) -> Notch {
     Notch { at, depth_m: Some(NOTCH_DEPTH_M), angle_deg: Some(angle_deg) }
 }
 
-/// Notches at arc lengths along a curve, cut at right angles to it, towards the line `u = 0`.
+/// Notches at arc lengths, cut at right angles to the curve towards the line `u = 0`.
 pub fn notches_along(curve: &[V2], arcs: &[f64]) -> Vec<Notch> {
     let Some(line) = Polyline::new(curve.to_vec()) else { return Vec::new() };
     let step = 1e-3;
@@ -55,7 +51,6 @@ pub fn mirrored(point: V2) -> V2 {
     V2::new(-point.x, point.y)
 }
 
-/// Mirrors a notch at the line `u = 0`.
 pub fn mirrored_notch(original: Notch) -> Notch {
     Notch {
         at: mirrored(original.at),

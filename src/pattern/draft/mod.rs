@@ -16,14 +16,12 @@ use super::piece::Piece;
 
 pub use self::tshirt::{TSHIRT_SEAMS, TshirtSize, tshirt};
 
-/// Drafted pieces of one size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Draft {
-    /// Name of the style, the prefix of its files: `tshirt`.
+    /// Prefix of the files: `tshirt`.
     pub style: String,
-    /// Name of the size, such as `M`.
     pub size: String,
-    /// Pieces, with the sew line as outline and without allowances, m.
+    /// The outline is the sew line, without allowances.
     pub pieces: Vec<Piece>,
 }
 
@@ -35,9 +33,7 @@ impl Draft {
 }
 
 impl Draft {
-    /// Writes the draft as AAMA DXF in millimetres: boundary, turn and curve points, notches and grain of each piece.
-    ///
-    /// The bytes depend on the draft only: no date is written.
+    /// Writes AAMA DXF in millimetres. The bytes depend on the draft only: no date is written.
     pub fn dxf(&self) -> Vec<u8> {
         let texts = [("Author", "Toile"), ("Style Name", &self.style), ("Sample Size", &self.size)];
         let texts = texts.map(|(key, value)| (key.to_owned(), value.to_owned()));
@@ -45,7 +41,6 @@ impl Draft {
     }
 }
 
-/// Styles that can be drafted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Model {
     /// Men's V-neck T-shirt, sizes S, M and L.
@@ -59,10 +54,9 @@ pub enum Model {
 }
 
 impl Model {
-    /// All styles that can be drafted.
     pub const ALL: [Self; 4] = [Self::Tshirt, Self::Trousers, Self::Teetop, Self::Dress];
 
-    /// Name, the prefix of its files.
+    /// Prefix of the files.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Tshirt => "tshirt",
@@ -72,7 +66,6 @@ impl Model {
         }
     }
 
-    /// Seam file, for all sizes.
     pub fn seams(self) -> &'static [u8] {
         match self {
             Self::Tshirt => TSHIRT_SEAMS,
@@ -82,7 +75,7 @@ impl Model {
         }
     }
 
-    /// Sizes, smallest first, with their published pattern lengths `#1`, `#2` ..., mm.
+    /// Sizes, smallest first, with their published lengths `#1`, `#2` ...
     pub fn published_mm(self) -> Vec<(&'static str, Vec<f64>)> {
         match self {
             Self::Tshirt => TshirtSize::ALL.map(|size| (size.as_str(), size.published_mm().to_vec())).to_vec(),
@@ -92,7 +85,7 @@ impl Model {
         }
     }
 
-    /// Drafts all sizes, smallest first.
+    /// Smallest size first.
     pub fn drafts(self) -> Vec<Draft> {
         match self {
             Self::Tshirt => TshirtSize::ALL.map(tshirt).to_vec(),
@@ -102,7 +95,7 @@ impl Model {
         }
     }
 
-    /// Files by name: one DXF per size, and the seam file.
+    /// One DXF per size, and the seam file.
     pub fn files(self) -> Vec<(String, Vec<u8>)> {
         let drawing = |draft: &Draft| {
             let name = format!("{}-{}.dxf", self.as_str(), draft.size.to_lowercase());

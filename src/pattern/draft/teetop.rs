@@ -7,18 +7,18 @@ use super::trunk::{FrontNeck, Trunk, TrunkPlan};
 use geom::V2;
 use geom::units::from_mm;
 
-/// Depth of the back neck below the side-neck points, m.
+/// Below the side-neck points.
 const BACK_NECK_DROP_M: f64 = 0.030;
-/// Cap height divided by the depth of the armhole.
+/// Share of the depth of the armhole.
 const CAP_HEIGHT_SHARE: f64 = 0.78;
 
-/// Sizes with their published lengths `#1` to `#9`, mm [T tables 6-23, 6-26].
+/// Published lengths `#1` to `#9`, mm [T tables 6-23, 6-26].
 pub(super) const SIZES: [(&str, [f64; 9]); 2] = [
     ("M", [932.81, 295.60, 439.36, 589.39, 454.68, 709.00, 393.21, 67.36, 57.46]),
     ("L", [1012.76, 316.54, 449.36, 599.39, 489.88, 726.40, 392.97, 72.70, 58.34]),
 ];
 
-/// Drafts the blocks `FRONT`, `BACK` and `SLEEVE`. The sleeve is the right one, and the left is its mirror image.
+/// The sleeve is the right one, and the left is its mirror image.
 pub(super) fn draft(size: &str, lengths_mm: [f64; 9]) -> Draft {
     let [hem, opening, centre_front, centre_back, armhole, neck, side, shoulder, sleeve] = lengths_mm.map(from_mm);
     let trunk = Trunk::solve(TrunkPlan {

@@ -7,14 +7,12 @@ use crate::{MeshQuality, Style, dxf};
 use geom::polyline::self_crossing;
 use geom::units::{from_mm, mm};
 
-/// Style that the written files of a draft make.
 fn style(model: Model, (name, bytes): &(String, Vec<u8>)) -> Style {
     let file = dxf::read(bytes, name, None).expect("our own file reads");
     assert_eq!((file.refused.len(), file.warnings.len()), (0, 0), "{name}: {:?} {:?}", file.refused, file.warnings);
     Style::read(&file.pieces, model.seams(), model.as_str()).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
-/// Every size of every style, with its published lengths.
 fn styles() -> Vec<(Model, Style, Vec<f64>)> {
     let sizes_of = |model: Model| {
         let sizes = model.published_mm();
@@ -42,7 +40,7 @@ fn the_files_sew_into_the_published_lengths() {
     }
 }
 
-/// Published pattern lengths by garment, size and number, from the table, without erroneous and rejected ones.
+/// Published lengths by garment, size and number, without erroneous and rejected ones.
 fn published_table() -> Option<BTreeMap<(String, String, usize), f64>> {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/thesis/published_measurements.csv");
     let text = std::fs::read_to_string(path).ok()?;

@@ -11,25 +11,23 @@ use crate::piece::Piece;
 use geom::V2;
 use geom::units::from_mm;
 
-/// Difference between hip girth and waist girth, m.
 const HIP_OVER_WAIST_M: f64 = 0.040;
-/// Difference in width between back and front pieces: at hem, knee and hip, and at the waist, m.
+/// Difference in width at hem, knee, hip and waist.
 const BACK_OVER_FRONT_M: f64 = 0.020;
-/// Height of the hip line above the crotch line, m.
 const HIP_ABOVE_CROTCH_M: f64 = 0.075;
-/// Distance of the leg's edge from the crease at the knee less that at the hem, m.
+/// Distance of the leg's edge from the crease at the knee less that at the hem.
 const KNEE_FLARE_M: f64 = 0.010;
-/// Height of the knee above the middle of the inseam, m.
+/// Height of the knee above the middle of the inseam.
 const KNEE_ABOVE_MIDDLE_M: f64 = 0.045;
 
-/// Sizes with their published lengths `#1` to `#6`, mm [T tables 6-14, 6-17, 6-20].
+/// Published lengths `#1` to `#6`, mm [T tables 6-14, 6-17, 6-20].
 pub(super) const SIZES: [(&str, [f64; 6]); 3] = [
     ("S", [239.00, 357.53, 719.10, 956.48, 981.48, 441.66]),
     ("M", [239.09, 357.60, 747.49, 984.92, 1001.36, 441.66]),
     ("L", [252.24, 377.71, 788.12, 1037.83, 1031.43, 461.62]),
 ];
 
-/// Drafts the blocks `FRONT` and `BACK` of the right leg. The left ones are their mirror images.
+/// Right leg. The left blocks are its mirror images.
 pub(super) fn draft(size: &str, lengths_mm: [f64; 6]) -> Draft {
     let [crotch_front, crotch_back, inseam, outseam, waist, hem] = lengths_mm.map(from_mm);
     let hip = waist + HIP_OVER_WAIST_M;
@@ -54,7 +52,7 @@ pub(super) fn draft(size: &str, lengths_mm: [f64; 6]) -> Draft {
     Draft::new("Mens trousers", size, "TWILL", vec![front.piece("FRONT", &[0.0]), back_piece(&back)])
 }
 
-/// Makes the right back: the mirror image of the drawing.
+/// Mirror image of the drawing.
 fn back_piece(back: &Leg) -> Piece {
     let mut piece = back.piece("BACK", &[0.0, DOUBLE_NOTCH_M]);
     piece.outline = piece.outline.iter().rev().map(|&p| mirrored(p)).collect();
@@ -65,14 +63,13 @@ fn back_piece(back: &Leg) -> Piece {
     piece
 }
 
-/// Proportions in which front and back differ, besides their girths.
 #[derive(Clone, Copy, Debug)]
 struct Proportions {
     /// Length of the fork divided by the hip girth.
     fork_share: f64,
     /// Share of the fork by which the piece is shifted towards the outseam, to balance about the crease.
     set_out: f64,
-    /// Slant of the centre line from the vertical, degrees.
+    /// Slant of the centre line from the vertical.
     slant_deg: f64,
     /// Depth of the hollow of the inseam, m.
     hollow: f64,
@@ -81,7 +78,7 @@ struct Proportions {
 const FRONT: Proportions = Proportions { fork_share: 0.047, set_out: 0.5, slant_deg: 3.0, hollow: 0.006 };
 const BACK: Proportions = Proportions { fork_share: 0.115, set_out: 0.46, slant_deg: 5.0, hollow: 0.004 };
 
-/// Dimensions of a leg piece, m.
+/// Lengths in m.
 #[derive(Clone, Copy, Debug)]
 struct Plan {
     hem: f64,
@@ -104,15 +101,15 @@ impl Plan {
         V2::new(self.hem / 2.0 + KNEE_FLARE_M, self.inseam / 2.0 + KNEE_ABOVE_MIDDLE_M)
     }
 
-    /// Knee point and next control point of the inseam (`side` 1) or outseam (`side` -1). The control point continues
-    /// the lower leg by a third of the distance to `end`.
+    /// Knee point and next control point of the inseam (`side` 1) or outseam (`side` -1), which continues the lower leg
+    /// by a third of the distance to `end`.
     fn on_from_knee(&self, side: f64, end: V2) -> [V2; 2] {
         let knee = V2::new(side * self.knee().x, self.knee().y);
         let hem = V2::new(side * self.hem / 2.0, 0.0);
         [knee, knee + (knee - hem).normalize() * ((end - knee).norm() / 3.0)]
     }
 
-    /// Inseam from the hem to a fork at height `v`.
+    /// From the hem to a fork at height `v`.
     fn inseam_to(&self, v: f64) -> Vec<V2> {
         let fork = V2::new(self.hip - self.side() + self.fork, v);
         let [knee, above] = self.on_from_knee(1.0, fork);
@@ -122,7 +119,7 @@ impl Plan {
         line
     }
 
-    /// Outseam from the hem to the hip line at height `v`, where it is vertical.
+    /// From the hem to the hip line at height `v`, where it is vertical.
     fn outseam_to(&self, v: f64) -> Vec<V2> {
         let hip = V2::new(-self.side(), v);
         let [knee, above] = self.on_from_knee(-1.0, hip);
@@ -132,7 +129,6 @@ impl Plan {
     }
 }
 
-/// The edges of a leg piece.
 struct Leg {
     /// From hem to fork.
     inseam: Vec<V2>,
@@ -144,13 +140,12 @@ struct Leg {
     /// From hem to hip line, and from hip line to waist.
     outseam_lower: Vec<V2>,
     outseam_upper: Vec<V2>,
-    /// Arc length from the hem to the knee notch, m.
+    /// From the hem to the knee notch, m.
     knee_arc: f64,
 }
 
 impl Leg {
-    /// Drafts a leg with given heights of fork and hip line. `outseam_lower` is the length of the outseam below the hip
-    /// line, if the other piece determines it.
+    /// `outseam_lower` is the length of the outseam below the hip line, if the other piece determines it.
     fn solve(plan: &Plan, fork_height: f64, hip_line: f64, outseam_lower: Option<f64>) -> Self {
         let inseam = plan.inseam_to(fork_height);
         let hip_at_side = outseam_lower.map_or(hip_line, |target| {
@@ -196,7 +191,7 @@ impl Leg {
         }
     }
 
-    /// Leg piece, counter-clockwise from the hem at the outseam. `marks` are its crotch notches above the hip line, m.
+    /// Counter-clockwise from the hem at the outseam. `marks` are the crotch notches above the hip line, m.
     fn piece(&self, block: &str, marks: &[f64]) -> Piece {
         let reversed = |curve: &[V2]| -> Vec<V2> { curve.iter().rev().copied().collect() };
         let edges = [

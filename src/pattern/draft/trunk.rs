@@ -5,45 +5,43 @@ use crate::curve::{bezier, bisect, length};
 use crate::piece::{Notch, Piece};
 use geom::V2;
 
-/// Slope of the shoulder line below the horizontal, degrees.
+/// Below the horizontal.
 pub const SHOULDER_SLOPE_DEG: f64 = 20.0;
-/// Difference between the length of the front armhole and the mean of both, m.
+/// Difference between the length of the front armhole and the mean of both.
 const ARMHOLE_BALANCE_M: f64 = 0.003;
-/// Position of the armhole notch, as a share of the armhole from the underarm.
+/// From the underarm.
 const ARMHOLE_NOTCH_SHARE: f64 = 0.35;
 
-/// Shape of the front neckline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrontNeck {
-    /// V neck: it begins along its chord, which makes the apex a corner.
+    /// Begins along its chord, which makes the apex a corner.
     V,
-    /// Round neck: it leaves the centre line at a right angle.
+    /// Leaves the centre line at a right angle.
     Round,
 }
 
 /// Dimensions of the trunk block, m.
 #[derive(Clone, Debug)]
 pub struct TrunkPlan {
-    /// Half of the lower edge, from the centre line to the side. For a straight edge, only its end.
+    /// Half, from the centre line to the side. For a straight edge, only its end.
     pub lower: Vec<V2>,
-    /// Underarm point: upper end of the side.
+    /// Upper end of the side.
     pub underarm: V2,
-    /// Heights of the neck points at centre front and centre back.
+    /// Heights of the neck points at front and back.
     pub centre: [f64; 2],
-    /// Depth of the back neck below the side-neck points.
+    /// Below the side-neck points.
     pub back_neck_drop: f64,
-    /// Shape of the front neckline.
     pub front_neck: FrontNeck,
-    /// Neck opening, all round.
+    /// Opening, all round.
     pub neck: f64,
-    /// Length of each shoulder seam.
+    /// Length of each seam.
     pub shoulder: f64,
-    /// Length of the armhole, front and back together.
+    /// Length, front and back together.
     pub armhole: f64,
     /// Length of the Bezier handle at the shoulder, square to it, as a share of the depth of the armhole, front and
-    /// back. A shorter handle makes the underarm rounder.
+    /// back. A shorter one makes the underarm rounder.
     pub armhole_reach: [f64; 2],
-    /// True if a sleeve is sewn in. The notches are then on the armhole, otherwise on the side.
+    /// With a sleeve the notches are on the armhole, otherwise on the side.
     pub has_sleeve: bool,
 }
 
@@ -102,8 +100,7 @@ impl Trunk {
         }
     }
 
-    /// Whole front. The outline goes from the lower edge up one side, along armhole, shoulder and neck, and down the
-    /// other side.
+    /// Outline from the lower edge up one side, along armhole, shoulder and neck, and down the other side.
     pub fn front(&self, block: &str) -> Piece {
         let mut piece = self.both_halves(block, &self.front_armhole, &self.front_neck, &[0.0]);
         if self.plan.front_neck == FrontNeck::V {
@@ -112,14 +109,14 @@ impl Trunk {
         piece
     }
 
-    /// Whole back with double notches, and a neck of one smooth curve.
+    /// Has double notches, and a neck of one smooth curve.
     pub fn back(&self, block: &str) -> Piece {
         let mut piece = self.both_halves(block, &self.back_armhole, &self.back_neck, &[0.0, -DOUBLE_NOTCH_M]);
         piece.notches.push(notch(self.back_neck[0], 270.0));
         piece
     }
 
-    /// Whole piece. `marks` are the distances of its armhole notches from the first of them, m.
+    /// `marks` are the distances of the armhole notches from the first of them, m.
     fn both_halves(&self, block: &str, armhole: &[V2], neck: &[V2], marks: &[f64]) -> Piece {
         let (lower, bottom) = (&self.plan.lower, self.plan.bottom());
         let (tip, side_neck) = (armhole[0], neck[neck.len() - 1]);
@@ -153,8 +150,8 @@ impl Trunk {
         }
     }
 
-    /// Right sleeve with its front half on `+u`. Each half of the cap is as long as the armhole on its side, without
-    /// ease. The cap height is `cap_share` times the depth of the armhole.
+    /// Right sleeve with its front half on `+u`. Each half of the cap is as long as its armhole, without ease. The cap
+    /// height is `cap_share` times the depth of the armhole.
     pub fn sleeve(&self, cap_share: f64, opening: f64, underarm_seam: f64) -> Piece {
         let height = cap_share * (self.front_armhole[0].y - self.plan.underarm.y);
         let front = cap(height, length(&self.front_armhole));
@@ -187,14 +184,14 @@ impl TrunkPlan {
         self.lower[self.lower.len() - 1]
     }
 
-    /// Unit vector outwards, at right angles to the side.
+    /// Unit vector outwards.
     fn square_to_side(&self) -> V2 {
         let side = (self.underarm - self.bottom()).normalize();
         V2::new(side.y, -side.x)
     }
 }
 
-/// Half of a sleeve cap of given height and length, from the underarm point on `+u` to the top.
+/// Half of a sleeve cap of length `target`, from the underarm point on `+u` to the top.
 fn cap(height: f64, target: f64) -> Vec<V2> {
     let curve = |width: f64| {
         bezier([

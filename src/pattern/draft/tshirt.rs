@@ -7,30 +7,26 @@ use super::trunk::{FrontNeck, Trunk, TrunkPlan};
 use geom::V2;
 use geom::units::from_mm;
 
-/// Depth of the back neck below the side-neck points, m.
+/// Below the side-neck points.
 const BACK_NECK_DROP_M: f64 = 0.022;
-/// Cap height divided by the depth of the armhole.
+/// Share of the depth of the armhole.
 const CAP_HEIGHT_SHARE: f64 = 0.56;
 
-/// Seam file of the T-shirt, for all sizes.
 pub const TSHIRT_SEAMS: &[u8] = include_bytes!("tshirt.seams.toml");
 
-/// Sizes of the T-shirt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TshirtSize {
-    /// Small: hem circumference 974 mm.
+    /// Hem circumference 974 mm.
     S,
-    /// Medium: hem circumference 1,034 mm.
+    /// Hem circumference 1,034 mm.
     M,
-    /// Large: hem circumference 1,094 mm.
+    /// Hem circumference 1,094 mm.
     L,
 }
 
 impl TshirtSize {
-    /// All sizes, smallest first.
     pub const ALL: [Self; 3] = [Self::S, Self::M, Self::L];
 
-    /// Letter of the size, as in files and tables.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::S => "S",
@@ -39,7 +35,7 @@ impl TshirtSize {
         }
     }
 
-    /// Published lengths `#1` to `#9`, mm [T tables 6-5, 6-8, 6-11].
+    /// Lengths `#1` to `#9` [T tables 6-5, 6-8, 6-11].
     pub fn published_mm(self) -> [f64; 9] {
         match self {
             Self::S => [974.10, 356.53, 550.76, 704.96, 503.71, 560.09, 458.95, 156.67, 119.18],
@@ -49,8 +45,7 @@ impl TshirtSize {
     }
 }
 
-/// Drafts the blocks `FRONT`, `BACK` and `SLEEVE` of the men's T-shirt. The sleeve is the right one, and the left is
-/// its mirror image.
+/// The sleeve is the right one, and the left is its mirror image.
 pub fn tshirt(size: TshirtSize) -> Draft {
     let lengths = size.published_mm().map(from_mm);
     let trunk = trunk(&lengths);
@@ -58,7 +53,7 @@ pub fn tshirt(size: TshirtSize) -> Draft {
     Draft::new("Mens T-shirt", size.as_str(), "JERSEY", vec![trunk.front("FRONT"), trunk.back("BACK"), sleeve])
 }
 
-/// Solves front and back, with the hem at `v = 0`.
+/// The hem is at `v = 0`.
 pub(super) fn trunk(lengths: &[f64; 9]) -> Trunk {
     let [hem, _, centre_front, centre_back, armhole, neck, side, shoulder, _] = *lengths;
     Trunk::solve(TrunkPlan {

@@ -11,7 +11,7 @@ use geom::V2;
 use geom::polyline::{Polyline, segment_meeting};
 use geom::units::mm;
 
-/// Way across an edge, mm, from which it has an arrow.
+/// Way across an edge from which it has an arrow.
 const MOVED_MM: f64 = 1.0;
 /// Number of parts of an edge at whose ends its way is measured.
 const PARTS: u32 = 40;
@@ -19,15 +19,14 @@ const PARTS: u32 = 40;
 const REACH: f64 = 1.5;
 /// Preference for the middle of an edge, as a share of the way: an edge that has moved as a whole has its arrow there.
 const TO_MIDDLE: f64 = 0.05;
-/// Height of a line of text, mm.
 const LINE_MM: f64 = 24.0;
-/// Height of a label, and width of one of its signs, mm.
+/// Width of one of its signs, and height.
 const LABEL_MM: V2 = V2::new(8.2, 16.0);
-/// Distances of a label from the tip of its arrow that are tried, mm.
+/// Distances of a label from the tip of its arrow that are tried.
 const DISTANCES_MM: [f64; 6] = [18.0, 27.0, 38.0, 52.0, 70.0, 95.0];
-/// Number of directions that are tried at each distance.
+/// Directions that are tried at each distance.
 const DIRECTIONS: u32 = 16;
-/// Change of a measurement, mm, from which it is listed.
+/// Change of a measurement from which it is listed.
 const LISTED_MM: f64 = 0.05;
 
 /// Way of a point across its edge on the sheet, mm.
@@ -35,14 +34,12 @@ const LISTED_MM: f64 = 0.05;
 struct Way {
     from: V2,
     to: V2,
-    /// Length, mm.
     length_mm: f64,
 }
 
-/// Draws a style that some handles have changed by their amounts, m: the pieces, and their outlines before the change
-/// dashed. An arrow shows how far each edge has moved across itself where it has moved most to that side, unless that is
-/// less than a millimetre.
-/// Below stand the handles, and the measurements that change.
+/// Draws a style that handles have changed by their amounts, m, with the outlines of before dashed. An arrow shows how
+/// far each edge has moved across itself where it has moved most to that side, from a millimetre on. Below stand the
+/// handles, and the measurements that change.
 pub fn changed_svg(before: &Style, after: &Style, moves: &[(Handle, f64)]) -> String {
     let (places, now) = (arrange(after), arranged(after));
     let laid = |(piece, place): (&StylePiece, &Placed)| -> Vec<Polyline> {
@@ -79,14 +76,13 @@ pub fn changed_svg(before: &Style, after: &Style, moves: &[(Handle, f64)]) -> St
     out
 }
 
-/// Lower and upper corner of the title of a piece on the sheet, mm.
+/// Lower and upper corner on the sheet, mm.
 fn title_extent(pen: &Pen, piece: &StylePiece, size: &str) -> [V2; 2] {
     let at = pen.title_at(&piece.outline());
     // Letters of 19 mm are 12 mm wide.
     [at - V2::new(0.0, 19.0), at + V2::new(12.0 * title(piece, size).chars().count() as f64, 4.0)]
 }
 
-/// Handles with their amounts, and measurements that change with their lengths before and after.
 fn notes(before: &Style, after: &Style, moves: &[(Handle, f64)]) -> Vec<String> {
     let moved = |(handle, amount_m): &(Handle, f64)| {
         let of = if handle.is_half_girth() { ", half of the girth" } else { "" };
@@ -102,7 +98,7 @@ fn notes(before: &Style, after: &Style, moves: &[(Handle, f64)]) -> Vec<String> 
     moves.iter().map(moved).chain(changed).chain([key]).collect()
 }
 
-/// Ways across the edges of a piece: one for each stretch of an edge that has moved to one side.
+/// One for each stretch of an edge that has moved to one side.
 fn ways(pen: &Pen, piece: &StylePiece, before: &[Polyline]) -> Vec<Way> {
     piece.edges.iter().zip(before).flat_map(|(edge, before)| stretches(pen, before, &edge.line)).collect()
 }
@@ -144,7 +140,7 @@ fn stretches(pen: &Pen, before: &Polyline, after: &Polyline) -> Vec<Way> {
 }
 
 impl Way {
-    /// Lower and upper corner of what the arrow covers, mm.
+    /// Lower and upper corner of the arrow, mm.
     fn extent(&self) -> [V2; 2] {
         [self.from.inf(&self.to).add_scalar(-2.0), self.from.sup(&self.to).add_scalar(2.0)]
     }
@@ -153,7 +149,6 @@ impl Way {
         format!("{:.1}", self.length_mm)
     }
 
-    /// Draws the arrow, and its label with a line that leads to it.
     fn draw(&self, out: &mut String, label: V2) {
         let along = (self.to - self.from) / self.length_mm;
         let side = V2::new(-along.y, along.x);
@@ -194,17 +189,15 @@ impl Way {
     }
 }
 
-/// Places of labels on the sheet.
 struct Labels {
-    /// Width and height of the sheet, mm.
+    /// Width and height, mm.
     sheet: V2,
-    /// Lower and upper corners of what is covered.
+    /// Lower and upper corners.
     taken: Vec<[V2; 2]>,
 }
 
 impl Labels {
-    /// Middle of the label of an arrow: the first free place, in the direction of the arrow first. Where none is free, the
-    /// first of all.
+    /// Middle of the label: the first free place, in the direction of the arrow first. Without one, the first of all.
     fn place(&mut self, way: &Way) -> V2 {
         let half = V2::new(LABEL_MM.x * way.text().len() as f64, LABEL_MM.y) * 0.5;
         let along = (way.to - way.from) / way.length_mm;
@@ -231,7 +224,6 @@ mod tests {
     use super::*;
     use crate::draft::Model;
 
-    /// Positions and sizes of the labels of a sheet.
     fn labels(sheet: &str) -> Vec<[f64; 4]> {
         let number = |tag: &str, name: &str| -> f64 {
             let value = tag.split(&format!(" {name}=\"")).nth(1).and_then(|rest| rest.split('"').next());

@@ -15,19 +15,15 @@ use geom::V2;
 use geom::polyline::Polyline;
 use geom::units::{from_mm, mm};
 
-/// Margin round the drawing, mm.
 const MARGIN_MM: f64 = 45.0;
-/// Height of the title above a piece, mm.
 const TITLE_MM: f64 = 30.0;
-/// Length of a notch tick, mm.
 const NOTCH_MM: f64 = 9.0;
-/// Distance of corner numbers and measurement numbers from the outline, mm.
+/// Distance of corner and measurement numbers from the outline.
 const LABEL_MM: f64 = 17.0;
-/// Position of the number of a measurement along its edge. Not at the middle, where lines across the piece end.
+/// Not at the middle of the edge, where lines across the piece end.
 const EDGE_LABEL_SHARE: f64 = 0.4;
-/// Position of the number of an edge along that edge.
 const EDGE_NUMBER_SHARE: f64 = 0.6;
-/// Style sheet. The accent colour marks measured lines.
+/// The accent colour marks measured lines.
 const CSS: &str = "\
 text{font-family:'DejaVu Sans',sans-serif;fill:#3a3a3a}\
 .piece{fill:#f6f3ec;stroke:#3a3a3a;stroke-width:1.4;stroke-linejoin:round}\
@@ -51,7 +47,6 @@ pub fn svg(style: &Style) -> String {
     drawn(&arranged(style))
 }
 
-/// Draws the pieces of a style where they lie.
 fn drawn(style: &Style) -> String {
     let all: Vec<V2> = style.pieces.iter().flat_map(StylePiece::outline).collect();
     let (low, high) = bounds_mm(&all);
@@ -73,8 +68,7 @@ fn drawn(style: &Style) -> String {
     out
 }
 
-/// Draws as [`svg`] does, with all pieces head up, and the points of measure numbered in place of the measurements of the
-/// style.
+/// Draws as [`svg`] does, with all pieces head up, and with points of measure in place of measurements.
 pub fn points_svg(style: &Style) -> String {
     let points = style.points_of_measure().into_iter().zip(1..);
     let measurement = |(measure, no): (PointOfMeasure, u32)| StyleMeasurement {
@@ -94,7 +88,7 @@ fn bounds_mm(points: &[V2]) -> (V2, V2) {
     (low.map(mm), high.map(mm))
 }
 
-/// Transform from the layout in metres, `y` up, to the sheet in millimetres, `y` down; writes SVG elements.
+/// Maps the layout in metres, `y` up, to the sheet in millimetres, `y` down.
 struct Pen {
     origin: V2,
 }
@@ -113,7 +107,6 @@ impl Pen {
         out.push_str(if is_closed { "Z\"/>\n" } else { "\"/>\n" });
     }
 
-    /// Draws outline, notches and grain line of a piece, with its name and size.
     fn piece(&self, out: &mut String, size: &str, piece: &StylePiece) {
         let outline = piece.outline();
         self.path(out, "piece", outline.iter().copied(), true);
@@ -128,13 +121,12 @@ impl Pen {
         let _ = writeln!(out, "<text class=\"title\" x=\"{:.1}\" y=\"{:.1}\">{title}</text>", at.x, at.y);
     }
 
-    /// Lower left corner of the title of a piece on the sheet.
+    /// Lower left corner on the sheet.
     fn title_at(&self, outline: &[V2]) -> V2 {
         let (low, high) = bounds_mm(outline);
         V2::new(self.origin.x + low.x, self.origin.y - high.y - 14.0)
     }
 
-    /// Writes the numbers of corners and edges.
     fn numbers(&self, out: &mut String, piece: &StylePiece) {
         let outline = piece.outline();
         for (number, &corner) in piece.corners.iter().enumerate() {
@@ -144,7 +136,7 @@ impl Pen {
         self.edge_numbers(out, piece);
     }
 
-    /// Writes the number of every edge, counter-clockwise from 1. Edits of seams name edges by these numbers.
+    /// Numbers run counter-clockwise from 1. Edits of seams name edges by them.
     fn edge_numbers(&self, out: &mut String, piece: &StylePiece) {
         for (index, edge) in piece.edges.iter().enumerate() {
             let p = self.beside(&edge.line, EDGE_NUMBER_SHARE, 0.8 * LABEL_MM) + V2::new(0.0, 4.5);
@@ -160,7 +152,6 @@ impl Pen {
         self.at(line.at(arc) + inwards * from_mm(distance_mm))
     }
 
-    /// Draws a double arrow along the grain, beside the middle of the piece.
     fn grain(&self, out: &mut String, piece: &StylePiece, outline: &[V2]) {
         let (low, high) = bounds_mm(outline);
         let middle = V2::new(0.72 * low.x + 0.28 * high.x, 0.5 * (low.y + high.y)) * 1e-3;
@@ -196,13 +187,11 @@ impl Pen {
     }
 }
 
-/// Title of a piece: its name and its size.
 fn title(piece: &StylePiece, size: &str) -> String {
     format!("{} {size}", piece.id.replace('_', " "))
 }
 
-/// Direction on the sheet away from the piece at a corner of its outline, longer at a reflex corner, where the gap is
-/// narrow.
+/// Direction on the sheet, longer at a reflex corner, where the gap is narrow.
 fn outwards(outline: &[V2], corner: V2) -> V2 {
     let n = outline.len();
     let distance = |i: usize| (outline[i] - corner).norm();
@@ -229,7 +218,7 @@ fn numbered_disc(out: &mut String, place: V2, no: u32) {
     );
 }
 
-/// Number of columns of the legend: three, or fewer where a sheet is too narrow for the longest name.
+/// Three, or fewer where a sheet is too narrow for the longest name.
 fn legend_columns(style: &Style, width: f64) -> usize {
     let letters = style.measurements.iter().map(|m| m.name.chars().count()).max().unwrap_or(0);
     // Letters of 15 mm are 9 mm wide. The row also holds a numbered disc and a length.
@@ -237,7 +226,6 @@ fn legend_columns(style: &Style, width: f64) -> usize {
     ((width - 2.0 * MARGIN_MM) / widest).clamp(1.0, 3.0) as usize
 }
 
-/// Writes numbers, names and pattern lengths of the measurements, in columns of `rows`.
 fn legend(out: &mut String, style: &Style, sheet: V2, rows: usize) {
     let columns = style.measurements.len().div_ceil(rows).max(1) as f64;
     for (k, measurement) in style.measurements.iter().enumerate() {

@@ -9,20 +9,17 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::NO_BLOCK;
 use crate::piece::Piece;
 
-/// Most characters of a name in R12.
+/// Limit of R12.
 const MOST_CHARS: usize = 31;
 
-/// Converts a name into a block name of R12: every character except letters and digits of any script, `-` and `_`
-/// becomes `_`.
+/// Replaces every character except letters and digits of any script, `-` and `_` by `_`.
 pub(crate) fn r12_name(name: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_');
     name.trim().chars().map(|c| if is_plain(c) { c } else { '_' }).take(MOST_CHARS).collect()
 }
 
-/// Returns a block name for each piece, all different.
-///
-/// A piece keeps the name of its block if no other piece has it. Otherwise the name of its size is appended, `FRONT_M`,
-/// as CAD programs name the blocks of a nest. A number distinguishes pieces of equal name and size: `FRONT_M_2`.
+/// Returns a different block name for each piece. A piece keeps the name of its block if no other has it. Otherwise its
+/// size is appended, `FRONT_M`, as CAD programs do in a nest, and then a number: `FRONT_M_2`.
 pub fn block_names(pieces: &[Piece]) -> Vec<String> {
     let own: Vec<String> = pieces.iter().map(own_name).collect();
     let mut alike: BTreeMap<String, Vec<usize>> = BTreeMap::new();
@@ -50,13 +47,13 @@ pub fn block_names(pieces: &[Piece]) -> Vec<String> {
     names
 }
 
-/// Name of the block of a piece, or the name of a piece that is drawn outside all blocks.
+/// Name of the block, or of a piece outside all blocks.
 fn own_name(piece: &Piece) -> String {
     let named = [&piece.block, &piece.name].into_iter().find(|name| !name.trim().is_empty() && *name != NO_BLOCK);
     r12_name(named.map_or("PIECE", String::as_str))
 }
 
-/// Name of a block without the size that follows the name of the piece.
+/// Removes the size that follows the name of the piece.
 fn without_size<'n>(block: &'n str, name: &str, mut sizes: impl Iterator<Item = &'n str>) -> &'n str {
     let after = block.strip_prefix(name).filter(|_| !name.is_empty());
     let is_size = after.is_some_and(|after| {
@@ -66,7 +63,7 @@ fn without_size<'n>(block: &'n str, name: &str, mut sizes: impl Iterator<Item = 
     if is_size { &block[..name.len()] } else { block }
 }
 
-/// Joins a name and its suffix, clipping the name to leave room.
+/// Clips the name to leave room for its suffix.
 fn joined(name: &str, after: &str) -> String {
     let after: String = after.chars().take(MOST_CHARS - 1).collect();
     let room = MOST_CHARS - after.chars().count();

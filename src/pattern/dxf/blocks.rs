@@ -20,9 +20,7 @@ use geom::V2;
 use geom::polyline::{perimeter, signed_area};
 use geom::units::mm;
 
-/// Least area of a piece, m2.
 const LEAST_AREA_M2: f64 = 1e-6;
-/// Greatest depth of nested insertions of blocks.
 const DEEPEST_INSERT: usize = 8;
 /// Greatest number of entities and points that are read for one piece.
 const MOST_PARTS: usize = 400_000;
@@ -32,7 +30,7 @@ const MOST_PARTS: usize = 400_000;
 pub struct Library<'d>(BTreeMap<String, Vec<&'d Block>>);
 
 impl<'d> Library<'d> {
-    /// Collects blocks by name. Upper and lower case count as equal.
+    /// Upper and lower case count as equal.
     pub fn of(blocks: &[&'d Block]) -> Self {
         let mut by_name: BTreeMap<String, Vec<&'d Block>> = BTreeMap::new();
         for block in blocks {
@@ -41,7 +39,6 @@ impl<'d> Library<'d> {
         Self(by_name)
     }
 
-    /// Block with a name. `None` if the file has no such block.
     fn find(&self, name: &str) -> Result<Option<&'d Block>, String> {
         match self.0.get(&name.to_ascii_uppercase()).map(Vec::as_slice) {
             Some([block]) => Ok(Some(block)),
@@ -53,21 +50,19 @@ impl<'d> Library<'d> {
     }
 }
 
-/// A text of a block with its position.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
     /// Insertion point, m.
     pub at: V2,
-    /// Content of the text.
     pub value: String,
-    /// True if it is on the layer of notches, internal lines, cut-outs or drill holes.
+    /// True on the layer of notches, internal lines, cut-outs or drill holes.
     is_inner: bool,
 }
 
 /// Drawing of a block, m, by AAMA layer.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawn {
-    /// Boundary (layer 1).
+    /// Layer 1.
     pub boundary: Vec<Line>,
     sew_lines: Vec<Line>,
     internal: Vec<Line>,
@@ -79,17 +74,15 @@ pub struct Drawn {
     turn_points: Vec<V2>,
     curve_points: Vec<V2>,
     notches: Vec<Notch>,
-    /// Quality validation curves of boundary (layer 84) and sew line (layer 87).
+    /// Curves of boundary (layer 84) and sew line (layer 87).
     quality: [Vec<Line>; 2],
-    /// Texts with their positions.
     pub texts: Vec<Text>,
-    /// Names of inserted blocks that the file does not hold.
     missing: Vec<String>,
     /// Unreadable parts of layers 1 and 14, each with the reason.
     pub unreadable: Vec<String>,
-    /// Curves that were flattened, by kind.
+    /// Number of curves by kind.
     pub flattened: BTreeMap<&'static str, usize>,
-    /// Number of unused entities by layer.
+    /// Number of entities by layer.
     pub unused: BTreeMap<String, usize>,
     /// Boundary lines that duplicate another boundary line.
     copies: Vec<Line>,
@@ -100,7 +93,7 @@ pub struct Drawn {
 }
 
 impl Drawn {
-    /// Sorts entities by layer. Inserted blocks are drawn at their insertion points.
+    /// Inserted blocks are drawn at their insertion points.
     pub fn collect<'e>(
         entities: impl IntoIterator<Item = &'e Entity>,
         placement: &Placement,
@@ -117,12 +110,12 @@ impl Drawn {
         drawn
     }
 
-    /// True if the block draws nothing, as the model and paper space of some writers.
+    /// True for the model and paper space of some writers.
     pub fn is_empty(&self) -> bool {
         self.is_no_piece() && self.texts.is_empty() && self.unused.is_empty()
     }
 
-    /// True if the block draws nothing on the layers of a piece.
+    /// True if nothing is drawn on the layers of a piece.
     pub fn is_no_piece(&self) -> bool {
         self.used == 0 && self.unreadable.is_empty()
     }
@@ -227,7 +220,6 @@ impl Drawn {
         self.used += 1;
     }
 
-    /// Adds the entities of the block that are of unsupported kinds.
     pub fn add_foreign(&mut self, foreign: &Foreign<'_>) {
         for (&(layer, kind), &count) in foreign {
             if layer == b"1" || layer == b"14" {
@@ -244,7 +236,7 @@ impl Drawn {
         *self.unused.entry(layer.to_owned()).or_default() += 1;
     }
 
-    /// Lines of a layer. Layers without a list of lines share that of layer 8.
+    /// Layers without a list of lines share that of layer 8.
     fn lines_of(&mut self, layer: &str) -> &mut Vec<Line> {
         match layer {
             "1" => &mut self.boundary,
@@ -259,8 +251,8 @@ impl Drawn {
         }
     }
 
-    /// Joins the boundary into one outline. Duplicate lines count once, unless the outline closes only with both: they
-    /// are then the two sides of a slit.
+    /// Joins the boundary. Duplicate lines count once, unless the outline closes only with both: they are then the two
+    /// sides of a slit.
     fn outline(&self, block: &str, remarks: &mut Vec<String>) -> Result<Vec<V2>, String> {
         let once = joined(&self.boundary, "outline (layer 1)");
         if self.copies.is_empty() {
@@ -284,9 +276,8 @@ impl Drawn {
         Ok(outline)
     }
 
-    /// Layers that are not read, the fullest first, with their numbers of entities. `None` without any.
+    /// Layers that are not read, the fullest first, with their numbers of entities.
     pub fn layers_beside(&self) -> Option<String> {
-        /// Greatest number of layers that are listed.
         const LISTED: usize = 6;
         let mut layers: Vec<(&String, &usize)> = self.unused.iter().collect();
         layers.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
@@ -295,7 +286,6 @@ impl Drawn {
         (!told.is_empty()).then(|| told.join(", "))
     }
 
-    /// Makes the piece of the block, and adds remarks for the user to `remarks`.
     pub fn into_piece(mut self, block: &str, remarks: &mut Vec<String>) -> Result<Piece, String> {
         if let Some(reason) = std::mem::take(&mut self.unreadable).into_iter().next() {
             return Err(reason);
@@ -374,13 +364,11 @@ impl Drawn {
         })
     }
 
-    /// Size named in the texts.
     pub fn size(&self) -> Option<String> {
         let texts = self.texts.iter().map(|text| key_and_value(&text.value));
         texts.filter(|(key, value)| is_key(key, "size") && !value.is_empty()).map(|(_, value)| value).next()
     }
 
-    /// A point of the first entity that is drawn.
     pub fn place(&self) -> Option<V2> {
         let lines = [&self.boundary, &self.sew_lines, &self.internal, &self.cut_outs];
         let more = [&self.grain, &self.mirror, &self.grade_reference];
@@ -395,7 +383,6 @@ impl Drawn {
             .next()
     }
 
-    /// Remarks for the user on the reading of the block.
     pub fn remarks(&self, block: &str) -> Vec<String> {
         let error_mm = mm(super::curves::CHORD_ERROR_M);
         let mut remarks = Vec::new();
@@ -412,13 +399,12 @@ impl Drawn {
     }
 }
 
-/// True for the layers of a piece.
 fn is_used(layer: &str) -> bool {
     let layers = ["1", "2", "3", "4", "5", "6", "7", "8", "11", "13", "14", "80", "81", "82", "83", "84", "87"];
     layers.contains(&layer)
 }
 
-/// Reads a notch that is drawn as a line from the edge inwards.
+/// Reads a line from the edge inwards.
 fn notch(line: &Line) -> Notch {
     let [at, inner] = line.ends();
     let cut = inner - at;
@@ -426,20 +412,20 @@ fn notch(line: &Line) -> Notch {
     Notch { at, depth_m: Some(cut.norm()), angle_deg }
 }
 
-/// Centre of the bounding box of some points.
+/// Centre of the bounding box.
 fn middle(points: &[V2]) -> V2 {
     let low = points.iter().fold(points[0], |low, p| low.inf(p));
     let high = points.iter().fold(points[0], |high, p| high.sup(p));
     (low + high) * 0.5
 }
 
-/// Grade point of a text `# n`: rule `n` applies at its position.
+/// A text `# n`: rule `n` applies at its position.
 fn grade_point(text: &Text) -> Option<GradePoint> {
     let rule = text.value.trim().strip_prefix('#')?.trim().parse().ok()?;
     Some(GradePoint { at: text.at, rule, is_inner: text.is_inner })
 }
 
-/// Texts of a set of entities as `(key, value)`.
+/// Texts as `(key, value)`.
 pub fn texts<'e>(entities: impl Iterator<Item = &'e Entity>) -> Vec<(String, String)> {
     let lines = |entity: &'e Entity| match &entity.specific {
         EntityType::Text(text) => vec![text.value.clone()],
@@ -449,7 +435,7 @@ pub fn texts<'e>(entities: impl Iterator<Item = &'e Entity>) -> Vec<(String, Str
     entities.flat_map(lines).map(|line| key_and_value(&line)).collect()
 }
 
-/// True for a key in any spelling: `Piece Name`, `PIECE_NAME`, `piecename`.
+/// True in any spelling: `Piece Name`, `PIECE_NAME`, `piecename`.
 fn is_key(found: &str, key: &str) -> bool {
     plain(found) == plain(key)
 }

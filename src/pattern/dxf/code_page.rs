@@ -4,20 +4,18 @@ use encoding_rs::Encoding;
 use oem_cp::code_table::{DECODING_TABLE_CP_MAP, ENCODING_TABLE_CP_MAP};
 use oem_cp::encode_string_lossy;
 
-/// Character encoding of texts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CodePage {
-    /// Encoding of the WHATWG standard, which include those of Windows and ISO 8859.
+    /// WHATWG encoding, which includes those of Windows and ISO 8859.
     Web(&'static Encoding),
-    /// An OEM (DOS) code page, by its number.
+    /// OEM (DOS) code page, by its number.
     Dos(u16),
 }
 
-/// Prefixes before the number of a code page.
 const PREFIXES: [&str; 8] = ["ANSI", "WINDOWS", "WIN", "CP", "DOS", "OEM", "IBM", "MS"];
 
 impl CodePage {
-    /// Finds a code page by name: `ANSI_1252`, `iso8859-1`, `8859_1`, `dos850`, `gb2312`, `utf8`, ...
+    /// Takes `ANSI_1252`, `iso8859-1`, `8859_1`, `dos850`, `gb2312`, `utf8`, ...
     pub fn named(name: &str) -> Option<Self> {
         let web = |label: &str| Encoding::for_label(label.as_bytes()).map(Self::Web);
         let plain: String = name.to_ascii_uppercase().chars().filter(char::is_ascii_alphanumeric).collect();
@@ -46,7 +44,6 @@ impl CodePage {
         }
     }
 
-    /// Decodes bytes of the file.
     pub fn decoded(self, bytes: &[u8]) -> String {
         match self {
             Self::Web(encoding) => encoding.decode_without_bom_handling(bytes).0.into_owned(),
@@ -57,7 +54,6 @@ impl CodePage {
         }
     }
 
-    /// Encodes a decoded text into the bytes of the file.
     pub fn encoded(self, text: &str) -> Vec<u8> {
         match self {
             Self::Web(encoding) => encoding.encode(text).0.into_owned(),
@@ -68,7 +64,6 @@ impl CodePage {
         }
     }
 
-    /// True for UTF-8.
     pub fn is_utf8(self) -> bool {
         self == Self::Web(encoding_rs::UTF_8)
     }

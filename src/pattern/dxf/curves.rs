@@ -7,19 +7,17 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use geom::V2;
 
-/// Greatest distance of a chord from its curve, m.
+/// Greatest distance of a chord from its curve.
 pub const CHORD_ERROR_M: f64 = 0.01e-3;
 /// Greatest turning angle of a chord, radians. The relative error of its length is the squared angle divided by 24.
 const MOST_TURN: f64 = 0.03;
-/// Greatest number of bisections of a span of a spline.
+/// Limit for a span of a spline.
 const MOST_HALVINGS: usize = 10;
-/// Greatest degree of a spline. DXF writers use 3, and the cost of de Boor's algorithm is quadratic in the degree.
+/// DXF writers use 3, and the cost of de Boor's algorithm is quadratic in the degree.
 const MOST_DEGREE: usize = 25;
 
-/// Points of an arc after `start` up to and including `end`. `bulge` is 2 * sagitta / chord, negative for an arc to the
-/// left of the chord.
-///
-/// The bulge is the tangent of a quarter of the included angle [DXF reference, LWPOLYLINE].
+/// Points after `start` up to and including `end`. `bulge` is 2 * sagitta / chord, the tangent of a quarter of the
+/// included angle, negative for an arc to the left of the chord [DXF reference, LWPOLYLINE].
 pub fn bulge(start: V2, end: V2, bulge: f64, tolerance: f64) -> Vec<V2> {
     let turn = 4.0 * bulge.atan();
     let chord = end - start;
@@ -37,8 +35,7 @@ pub fn bulge(start: V2, end: V2, bulge: f64, tolerance: f64) -> Vec<V2> {
     points
 }
 
-/// Points of a circular arc, counter-clockwise from one direction to another, degrees. Equal directions give a full
-/// circle.
+/// Counter-clockwise from one direction to another. Equal directions give a full circle.
 pub fn arc(centre: V2, radius: f64, degrees: [f64; 2], tolerance: f64) -> Vec<V2> {
     let [from, to] = degrees.map(f64::to_radians);
     let turn = full_turn(to - from);
@@ -47,15 +44,15 @@ pub fn arc(centre: V2, radius: f64, degrees: [f64; 2], tolerance: f64) -> Vec<V2
     (0..=count).map(|k| centre + rotated(start, turn * k as f64 / count as f64)).collect()
 }
 
-/// Points of a circle, the first not repeated.
+/// The first point is not repeated.
 pub fn circle(centre: V2, radius: f64, tolerance: f64) -> Vec<V2> {
     let mut points = arc(centre, radius, [0.0, 0.0], tolerance);
     points.pop();
     points
 }
 
-/// Points of an elliptic arc between two parameters, radians. `major` is the semi-major axis, `ratio` the minor axis
-/// divided by the major axis.
+/// Arc between two parameters, radians. `major` is the semi-major axis, `ratio` the minor axis divided by the major
+/// axis.
 pub fn ellipse(centre: V2, major: V2, ratio: f64, parameters: [f64; 2], tolerance: f64) -> Vec<V2> {
     let minor = V2::new(-major.y, major.x) * ratio;
     let turn = full_turn(parameters[1] - parameters[0]);
@@ -68,7 +65,7 @@ pub fn ellipse(centre: V2, major: V2, ratio: f64, parameters: [f64; 2], toleranc
     (0..=count).map(|k| centre + major * parameter_at(k).cos() + minor * parameter_at(k).sin()).collect()
 }
 
-/// Angle between two directions, counter-clockwise, radians. Equal directions give a full turn.
+/// Counter-clockwise angle in radians, a full turn instead of 0.
 fn full_turn(turn: f64) -> f64 {
     let turn = turn.rem_euclid(TAU);
     if turn < 1e-9 { TAU } else { turn }
@@ -84,17 +81,17 @@ fn rotated(vector: V2, angle: f64) -> V2 {
     V2::new(cosine * vector.x - sine * vector.y, sine * vector.x + cosine * vector.y)
 }
 
-/// B-spline, rational if it has weights.
+/// Rational if it has weights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spline {
     degree: usize,
     knots: Vec<f64>,
-    /// Homogeneous control points: each point times its weight, and the weight.
+    /// Homogeneous: each point times its weight, and the weight.
     control: Vec<(V2, f64)>,
 }
 
 impl Spline {
-    /// Makes a spline of the given degree.
+    /// Fails where knots, weights and control points do not match.
     pub fn new(degree: i32, knots: &[f64], control: &[V2], weights: &[f64]) -> Result<Self, String> {
         let of_degree = usize::try_from(degree).ok().filter(|degree| (1..=MOST_DEGREE).contains(degree));
         let Some(degree) = of_degree else {
@@ -124,7 +121,7 @@ impl Spline {
         Ok(Self { degree, knots: knots.to_vec(), control })
     }
 
-    /// Point at the parameter `u` in a knot span, by de Boor's algorithm [de Boor].
+    /// Point at `u` in a knot span, by de Boor's algorithm [de Boor].
     fn at(&self, span: usize, u: f64) -> V2 {
         let p = self.degree;
         let mut points = self.control[span - p..=span].to_vec();
@@ -139,7 +136,6 @@ impl Spline {
         points[p].0 / points[p].1
     }
 
-    /// Flattens the curve over its valid knot spans.
     pub fn flattened(&self, tolerance: f64) -> Vec<V2> {
         let mut points = Vec::new();
         for span in self.degree..self.control.len() {
@@ -157,7 +153,7 @@ impl Spline {
         points
     }
 
-    /// Adds the points of a part of a span after its first end, bisecting it until the chords follow the curve.
+    /// Adds the points after the first end, bisecting until the chords follow the curve.
     fn halve(&self, span: usize, ends: [(f64, V2); 2], tolerance: f64, halvings: usize, points: &mut Vec<V2>) {
         let [(from, start), (to, end)] = ends;
         let middle = 0.5 * (from + to);
@@ -188,7 +184,6 @@ mod tests {
         assert!((found / expect - 1.0).abs() < share, "{found} for {expect}");
     }
 
-    /// All points at a distance from a centre.
     fn lie_on_circle(points: &[V2], centre: V2, radius: f64) {
         assert!(points.iter().all(|p| ((p - centre).norm() - radius).abs() < 1e-12), "{points:?}");
     }

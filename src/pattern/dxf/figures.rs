@@ -7,19 +7,18 @@ use super::curves::{self, CHORD_ERROR_M, Spline};
 use super::mtext;
 use geom::V2;
 
-/// Flags of a polyline and of its vertices [DXF reference, POLYLINE, VERTEX].
+/// Flag of a polyline [DXF reference, POLYLINE, VERTEX].
 const CLOSED: i32 = 1;
 const MESH: i32 = 16 | 64;
 const FRAME_OF_SPLINE: i32 = 16;
 
-/// Placement of the drawing of a block: an affine map into the piece, in metres.
+/// Affine map from the drawing of a block into the piece, in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
-    /// Image of the unit vector along x.
+    /// Image of the unit vector.
     x: V2,
-    /// Image of the unit vector along y.
+    /// Image of the unit vector.
     y: V2,
-    /// Image of the origin.
     origin: V2,
 }
 
@@ -29,23 +28,21 @@ impl Placement {
         Self { x: V2::new(scale, 0.0), y: V2::new(0.0, scale), origin: V2::zeros() }
     }
 
-    /// Image of a point.
     fn at(&self, point: V2) -> V2 {
         self.origin + self.vector(point)
     }
 
-    /// Image of a vector.
     fn vector(&self, step: V2) -> V2 {
         self.x * step.x + self.y * step.y
     }
 
-    /// Scale factor: the longer image of the two unit vectors.
+    /// Longer image of the two unit vectors.
     fn scale(&self) -> f64 {
         self.x.norm().max(self.y.norm())
     }
 
-    /// Placement of an entity with this normal. An entity whose normal points down is seen from behind, with its x axis
-    /// reversed [DXF reference, OCS].
+    /// Placement of an entity with this normal. If it points down, the x axis is reversed [DXF reference, OCS]. Fails
+    /// where it is tilted.
     fn seen_along(&self, normal: &Vector) -> Result<Self, String> {
         let tilt = normal.x.abs().max(normal.y.abs());
         if tilt > 1e-6 * normal.z.abs() {
@@ -54,7 +51,7 @@ impl Placement {
         Ok(if normal.z < 0.0 { Self { x: -self.x, ..*self } } else { *self })
     }
 
-    /// Placement of a block that is inserted into a drawing with this placement. `base` is the base point of the block.
+    /// Placement of an inserted block. `base` is its base point. Fails for an array or a tilted insertion.
     pub fn of_insert(&self, insert: &Insert, base: &Point) -> Result<Self, String> {
         if insert.column_count > 1 || insert.row_count > 1 {
             return Err(format!(
@@ -71,58 +68,49 @@ impl Placement {
     }
 }
 
-/// Curves of one kind that were flattened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Curves {
-    /// Number of curves.
     pub count: usize,
-    /// Name of the kind, for messages.
     pub kind: &'static str,
 }
 
-/// Geometry of an entity, in metres.
+/// Geometry in metres.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Figure {
-    /// A polyline with its curves flattened.
+    /// Polyline with its curves flattened.
     Line {
-        /// Points, m. The first is not repeated in a closed polyline.
+        /// The first is not repeated in a closed polyline.
         points: Vec<V2>,
-        /// True if the last point joins the first.
         is_closed: bool,
-        /// Curves that were flattened.
         curves: Curves,
     },
-    /// A circle: a drill hole, a cut-out or a round outline.
+    /// A drill hole, a cut-out or a round outline.
     Circle {
-        /// Centre, m.
         centre: V2,
-        /// Points, the first not repeated.
+        /// The first is not repeated.
         points: Vec<V2>,
     },
-    /// A POINT entity: a turn point, a curve point, a notch or a drill hole.
+    /// A turn point, a curve point, a notch or a drill hole.
     Point {
-        /// Position in the plane, m.
         at: V2,
-        /// Depth of a notch, m: the z coordinate.
+        /// Depth of a notch: the z coordinate.
         depth_m: f64,
-        /// Direction, degrees counter-clockwise from +u.
+        /// Counter-clockwise from +u.
         angle_deg: f64,
     },
-    /// A TEXT or MTEXT entity, each line of which may be a `key: value`.
+    /// TEXT or MTEXT, each line of which may be a `key: value`.
     Text {
-        /// Insertion point, m.
+        /// Insertion point.
         at: V2,
-        /// Lines of the text.
         lines: Vec<String>,
     },
-    /// Anything else: labels, and kinds that [`super::guard`] counts as unsupported.
+    /// Also kinds that [`super::guard`] counts as unsupported.
     Label,
 }
 
-/// Greatest distance of a point from the origin of the sheet, m. A cutting table is some tens of metres long.
+/// From the origin of the sheet. A cutting table is some tens of metres long.
 const FARTHEST_M: f64 = 1_000.0;
 
-/// Geometry of an entity at a placement.
 pub fn figure(entity: &Entity, placement: &Placement) -> Result<Figure, String> {
     let figure = figure_anywhere(entity, placement)?;
     let places: &[V2] = match &figure {
@@ -138,7 +126,7 @@ pub fn figure(entity: &Entity, placement: &Placement) -> Result<Figure, String> 
     }
 }
 
-/// Geometry of an entity, at any distance from the origin.
+/// At any distance from the origin.
 fn figure_anywhere(entity: &Entity, placement: &Placement) -> Result<Figure, String> {
     let tolerance = CHORD_ERROR_M / placement.scale();
     match &entity.specific {
@@ -178,16 +166,15 @@ fn flat(point: &Point) -> V2 {
     V2::new(point.x, point.y)
 }
 
-/// A polyline in the coordinates of the entity.
+/// Polyline in the coordinates of the entity.
 struct Chain<'e> {
     points: Vec<V2>,
     is_closed: bool,
     curves: Curves,
-    /// Normal of the plane of the points. `None` for world coordinates.
+    /// Of the plane of the points. `None` for world coordinates.
     normal: Option<&'e Vector>,
 }
 
-/// Polyline of an entity that draws a line or a curve.
 fn chain(entity: &Entity, tolerance: f64) -> Result<Option<Chain<'_>>, String> {
     let of_world = |points: Vec<V2>, curves| Chain { points, is_closed: false, curves, normal: None };
     Ok(Some(match &entity.specific {
@@ -243,7 +230,7 @@ fn chain(entity: &Entity, tolerance: f64) -> Result<Option<Chain<'_>>, String> {
     }))
 }
 
-/// Points of a polyline with bulges, and the number of segments that are arcs.
+/// Points, and the number of segments that are arcs.
 fn with_bulges(vertices: &[(V2, f64)], is_closed: bool, tolerance: f64) -> (Vec<V2>, usize) {
     let n = vertices.len();
     let sides = if is_closed { n } else { n.saturating_sub(1) };

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::DxfError;
 use super::tags::{Tag, ValueType, clipped, value_type};
 
-/// Kinds of entities that carry a pattern. `VERTEX` includes the vertices of LWPOLYLINE.
+/// Kinds that carry a pattern. `VERTEX` includes the vertices of LWPOLYLINE.
 pub const KINDS: [&str; 12] = [
     "POLYLINE",
     "VERTEX",
@@ -25,8 +25,7 @@ pub const KINDS: [&str; 12] = [
     "SPLINE",
 ];
 
-/// Other kinds of entities of DXF [DXF reference, ENTITIES section]. A kind that is in neither list means a damaged or
-/// foreign file.
+/// Other kinds of DXF [DXF reference, ENTITIES section]. A kind in neither list means a damaged or foreign file.
 const OTHER_KINDS: [&str; 36] = [
     "3DFACE",
     "3DLINE",
@@ -66,72 +65,63 @@ const OTHER_KINDS: [&str; 36] = [
     "XLINE",
 ];
 
-/// Sections of a DXF file.
 const SECTIONS: [&str; 8] =
     ["HEADER", "CLASSES", "TABLES", "BLOCKS", "ENTITIES", "OBJECTS", "THUMBNAILIMAGE", "ACDSDATA"];
 
-/// Number of drawing entities of unsupported kinds, by layer (as bytes of the file) and kind.
+/// Number of entities of unsupported kinds, by layer (as bytes of the file) and kind.
 pub type Foreign<'a> = BTreeMap<(&'a [u8], &'a str), usize>;
 
 /// Unsupported kinds that draw no part of a piece.
 const LABELS: [&str; 3] = ["ATTDEF", "ATTRIB", "SEQEND"];
 
-/// Number of entities of each kind.
+/// Number of entities by kind.
 pub type Counts = BTreeMap<&'static str, usize>;
 
-/// Inventory of a block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BlockCount<'a> {
-    /// Name, as bytes of the file.
+    /// As bytes of the file.
     pub name: &'a [u8],
-    /// Line number of its `0/BLOCK` tag.
+    /// Line of its `0/BLOCK` tag.
     pub line: usize,
-    /// Number of supported entities by kind.
+    /// Supported entities.
     pub counts: Counts,
-    /// Entities of unsupported kinds.
     pub foreign: Foreign<'a>,
 }
 
-/// Value of a header variable with its line number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeaderValue<'a> {
-    /// Value, trimmed. Empty if it is not UTF-8.
+    /// Trimmed. Empty if it is not UTF-8.
     pub value: &'a str,
-    /// Line of the value, from 1.
+    /// From 1.
     pub line: usize,
 }
 
-/// Bytes of the file with their line number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Located<'a> {
-    /// Bytes.
     pub bytes: &'a [u8],
-    /// Line number, from 1.
+    /// From 1.
     pub line: usize,
 }
 
-/// Inventory of a DXF file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Inventory<'a> {
-    /// Header variables by name.
     pub header: BTreeMap<&'a str, HeaderValue<'a>>,
-    /// Blocks in order.
     pub blocks: Vec<BlockCount<'a>>,
-    /// Number of supported entities outside blocks, by kind.
+    /// Supported entities outside blocks.
     pub entities: Counts,
-    /// Entities of unsupported kinds outside blocks.
+    /// Outside blocks.
     pub foreign: Foreign<'a>,
-    /// Texts (group code 1 of TEXT and MTEXT, and 3 of MTEXT).
+    /// Group code 1 of TEXT and MTEXT, and 3 of MTEXT.
     pub texts: Vec<Located<'a>>,
-    /// Line numbers of entities between blocks. They are part of no block.
+    /// Line numbers of entities between blocks, which are part of no block.
     pub strays: Vec<usize>,
-    /// Names of inserted blocks.
     inserted: Vec<Located<'a>>,
-    /// Tags for the crate: version, blocks and entities, without the undefined group codes.
+    /// Version, blocks and entities for the `dxf` crate, without the undefined group codes.
     pub clean: Vec<Tag<'a>>,
 }
 
-/// Takes the inventory of the tags of a file.
+/// Fails where sections or blocks do not nest, a number does not parse, a coordinate is missing, or a group code is
+/// undefined (other than 240-269, which are skipped).
 pub fn take_inventory<'a>(tags: &[Tag<'a>], file: &str) -> Result<Inventory<'a>, DxfError> {
     let mut walk = Walk { file, section: None, block: None, inventory: Inventory::default() };
     // A record is a tag of group code 0 and the tags up to the next one.
@@ -160,7 +150,7 @@ impl Inventory<'_> {
         self.texts.iter().map(|text| text.bytes).chain(self.blocks.iter().map(|block| block.name))
     }
 
-    /// Names of inserted blocks that the file does not hold, each once, with the line number of an insertion.
+    /// Each once, with the line number of an insertion.
     pub fn missing_blocks(&self) -> Vec<(String, usize)> {
         let mut known: BTreeSet<Vec<u8>> = self.blocks.iter().map(|block| block.name.to_ascii_uppercase()).collect();
         let missing = self.inserted.iter().filter(|name| known.insert(name.bytes.to_ascii_uppercase()));
@@ -170,9 +160,8 @@ impl Inventory<'_> {
 
 struct Walk<'a, 'f> {
     file: &'f str,
-    /// Name of the open section.
     section: Option<&'a str>,
-    /// Line number of the start of the open block.
+    /// Line number of its start.
     block: Option<usize>,
     inventory: Inventory<'a>,
 }
@@ -240,7 +229,7 @@ impl<'a> Walk<'a, '_> {
         }
     }
 
-    /// Handles a record of the sections BLOCKS and ENTITIES.
+    /// Handles a record of BLOCKS and ENTITIES.
     fn content(&mut self, record: &[Tag<'a>]) -> Result<(), DxfError> {
         let head = record[0];
         let is_in_blocks = self.section == Some("BLOCKS");
@@ -345,7 +334,7 @@ impl<'a> Walk<'a, '_> {
         Ok(())
     }
 
-    /// Checks the numbers of points and knots of a spline: the crate pairs incomplete lists without an error.
+    /// Checks the numbers of points and knots: the crate pairs incomplete lists without an error.
     fn check_spline(&self, record: &[Tag<'a>]) -> Result<(), DxfError> {
         let count = |code: i32| record.iter().filter(|tag| tag.code == code).count();
         for (x, y, stated, what) in [(10, 20, 73, "control points"), (11, 21, 74, "fit points"), (40, 40, 72, "knots")]
@@ -361,7 +350,7 @@ impl<'a> Walk<'a, '_> {
         Ok(())
     }
 
-    /// Checks that all coordinates are given: the crate takes a missing coordinate for zero.
+    /// Refuses missing coordinates, which the crate takes for zero.
     fn check_coordinates(&self, keyword: &str, record: &[Tag<'a>]) -> Result<(), DxfError> {
         let needed: &[i32] = match keyword {
             "VERTEX" | "POINT" => &[10, 20],
@@ -392,13 +381,13 @@ impl<'a> Walk<'a, '_> {
     }
 }
 
-/// True for a record that draws a boundary or a sew line, without which a piece is another one.
+/// True for a record of a boundary or a sew line, without which a piece is another one.
 fn is_boundary(record: &[Tag<'_>]) -> bool {
     let layer = record.iter().find(|tag| tag.code == 8).map_or(&b"0"[..], |tag| tag.value.trim_ascii());
     matches!(layer, b"1" | b"14") && !matches!(record[0].keyword(), "TEXT" | "MTEXT" | "ATTRIB" | "ATTDEF" | "SEQEND")
 }
 
-/// Integer without the zero decimals (`0.000000`) that some writers add. Other values stay as they are.
+/// Drops the zero decimals (`0.000000`) that some writers add to integers.
 fn without_zero_decimals(value: &[u8]) -> &[u8] {
     match value.iter().position(|&byte| byte == b'.') {
         Some(point) if point > 0 && value[point + 1..].trim_ascii_end().iter().all(|&byte| byte == b'0') => {
@@ -413,7 +402,7 @@ fn keyword_of(value: &[u8]) -> &str {
 }
 
 impl<'a> Tag<'a> {
-    /// Keyword as of [`Tag::keyword`], with the lifetime of the file.
+    /// [`Tag::keyword`] with the lifetime of the file.
     fn keyword_static(&self) -> &'a str {
         keyword_of(self.value)
     }

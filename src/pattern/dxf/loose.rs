@@ -10,25 +10,22 @@ use crate::piece::Piece;
 use geom::V2;
 use geom::polyline::{boundary_distance, contains};
 
-/// Distance below which a point counts as inside an outline, m.
+/// Distance below which a point counts as inside an outline.
 const NEAR_M: f64 = 1e-3;
-/// Greatest number of outlines. Every pair of them is tested for containment.
+/// Every pair of outlines is tested for containment.
 const MOST_OUTLINES: usize = 500;
 
-/// Content of the file outside all blocks.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Loose {
-    /// Pieces: closed boundary lines, each with the entities inside it.
+    /// Closed boundary lines, each with the entities inside it.
     pub pieces: Vec<Piece>,
-    /// Outlines that cannot be used as pieces.
     pub refused: Vec<Refused>,
-    /// Remarks for the user.
     pub remarks: Vec<String>,
-    /// The drawing, if it has no boundary line. `None` if its lines are in `pieces` or `refused`.
+    /// Drawing without a boundary line. `None` if its lines are in `pieces` or `refused`.
     pub rest: Option<Drawn>,
 }
 
-/// Reads the entities outside all blocks. Insertions of blocks are skipped, because every block is read as a piece.
+/// Insertions of blocks are skipped, because every block is read as a piece.
 pub fn read<'e>(entities: impl Iterator<Item = &'e Entity>, placement: &Placement, library: &Library<'_>) -> Loose {
     let entities: Vec<&Entity> = entities.filter(|e| !matches!(e.specific, EntityType::Insert(_))).collect();
     let drawn = Drawn::collect(entities.iter().copied(), placement, library);
@@ -78,8 +75,7 @@ fn is_of(outline: &Line, place: &V2) -> bool {
 }
 
 impl Loose {
-    /// Adds a piece. Its name is its `Piece Name`, or else its first text that is neither a `key: value` nor a rule
-    /// number.
+    /// Takes as name its `Piece Name`, or else its first text that is neither a `key: value` nor a rule number.
     fn add(&mut self, drawn: Drawn) {
         let keyless = |text: &Text| {
             let (key, value) = key_and_value(&text.value);

@@ -40,26 +40,20 @@ use super::piece::{Beside, Piece};
 use super::style::named::without;
 use super::{scale, size_order};
 
-/// Greatest distance of a copy from what it draws again, m: the rounding of files.
+/// Greatest distance of a copy from what it draws again: the rounding of files.
 const SHADOW_M: f64 = 0.1e-3;
 /// Beginning of the reason why a block without an outline is refused.
 const NO_OUTLINE: &str = "no outline";
-/// Name in place of that of a block, for an outline that is drawn outside all blocks.
+/// Block name of an outline outside all blocks.
 pub const NO_BLOCK: &str = "(no block)";
 
-/// Error of reading a DXF file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}: found {found}; accepted: {accepted}", place(file, *line, block.as_deref()))]
 pub struct DxfError {
-    /// Name of the file.
     pub file: String,
-    /// Line number. `None` if the error has no line.
     pub line: Option<usize>,
-    /// Name of the block. `None` if the error is in no block.
     pub block: Option<String>,
-    /// Description of what was found.
     pub found: String,
-    /// Description of what is accepted.
     pub accepted: String,
 }
 
@@ -78,47 +72,40 @@ fn place(file: &str, line: Option<usize>, block: Option<&str>) -> String {
 /// A block that cannot be used as a piece.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Refused {
-    /// Name of the block, or [`NO_BLOCK`] for an outline outside all blocks.
+    /// Or [`NO_BLOCK`] for an outline outside all blocks.
     pub block: String,
-    /// Line number at which the block begins. `None` for a file without blocks.
+    /// Line at which the block begins. `None` for a file without blocks.
     pub line: Option<usize>,
-    /// Size of the refused piece. `None` if the block names none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub size: Option<String>,
-    /// Reason, with the place in millimetres.
+    /// Holds the place in millimetres.
     pub reason: String,
 }
 
-/// Content of a pattern file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PatternFile {
-    /// Name of the file, for messages.
     pub file: String,
-    /// Format and version: `DXF AC1009`, or `DXF` alone if the file names no version.
+    /// `DXF AC1009`, or `DXF` alone if the file names no version.
     pub format: String,
-    /// Unit of the coordinates in the file.
     pub unit: Unit,
-    /// Source of the unit.
     pub unit_source: UnitSource,
-    /// Texts outside the blocks as `(key, value)`.
+    /// Outside the blocks, as `(key, value)`.
     pub texts: Vec<(String, String)>,
-    /// Pieces in the order of the file.
+    /// In the order of the file.
     pub pieces: Vec<Piece>,
     /// Blocks that cannot be used as pieces.
     pub refused: Vec<Refused>,
-    /// Warnings for the user.
     pub warnings: Vec<String>,
     /// Warning that the file contradicts the unit in which it is read. It is in `warnings` too.
     pub unit_remark: Option<String>,
-    /// Number of unused entities by layer.
+    /// Number of entities by layer.
     pub unused: BTreeMap<String, usize>,
-    /// Encoding of the texts.
     pub encoding: CodePage,
 }
 
 impl PatternFile {
-    /// Name of a block byte for byte as in the file, each byte as the character of that number (Latin-1). In a UTF-8
-    /// file it is the name itself. It names the block whatever the code page of a reader.
+    /// Name of a block byte for byte (Latin-1), whatever the code page of a reader. In a UTF-8 file it is the name
+    /// itself.
     pub fn as_written(&self, block: &str) -> String {
         if block == NO_BLOCK || self.encoding.is_utf8() {
             return block.to_owned();
@@ -126,14 +113,13 @@ impl PatternFile {
         self.encoding.encoded(block).into_iter().map(char::from).collect()
     }
 
-    /// Doubt about the unit from the length of the longest piece. `None` without a doubt.
+    /// Judges the unit by the length of the longest piece.
     fn doubt(&self) -> Option<String> {
         let longest_m = scale::longest_m(self.pieces.iter().map(|piece| &piece.outline[..]));
         if longest_m > 0.0 { scale::doubt(longest_m, self.unit) } else { None }
     }
 
-    /// Sizes from the smallest to the largest. Sizes whose names have no order stay in the order of the file. Pieces
-    /// without a size count as size `""`.
+    /// Smallest first. Names without an order stay in the order of the file. Pieces without a size count as size `""`.
     pub fn sizes(&self) -> Vec<&str> {
         let mut sizes = Vec::new();
         for piece in &self.pieces {
@@ -146,7 +132,7 @@ impl PatternFile {
         sizes
     }
 
-    /// Sample size: the one that the file names, otherwise the middle one.
+    /// The one that the file names, otherwise the middle one.
     pub fn sample_size(&self) -> &str {
         let sizes = self.sizes();
         let said = self.texts.iter().filter(|(key, _)| is_sample_size(key)).map(|(_, value)| value.as_str());
@@ -154,8 +140,8 @@ impl PatternFile {
         sample.copied().unwrap_or_else(|| sizes.get(sizes.len() / 2).copied().unwrap_or_default())
     }
 
-    /// Pieces of one size, half pieces unfolded, ready for a seam file. Without `size` the file must hold only one
-    /// size. Upper and lower case count as equal.
+    /// Pieces of one size, half pieces unfolded. Without `size` the file must hold only one. Upper and lower case count
+    /// as equal. Fails also where a block of this size was refused: the garment would be another one.
     pub fn to_sew(&self, size: Option<&str>) -> Result<Vec<Piece>, DxfError> {
         let doubt = self.doubt();
         if self.unit_source == UnitSource::Assumed {
@@ -229,8 +215,8 @@ impl PatternFile {
     }
 }
 
-/// Gives each piece of one size its counterparts in the other sizes: the same name, or the same name except for the
-/// size. Pieces of equal name are matched in their order.
+/// Gives each piece its counterparts in the other sizes: the same name but for the size. Pieces of equal name are
+/// matched in their order.
 fn join_sizes(pieces: &mut [Piece], sizes: &[Vec<Piece>]) {
     let bare = |piece: &Piece| without(&piece.name, piece.size.as_deref().unwrap_or_default());
     // Full names are compared first: the 2 of `SLEEVE 2` may be no size.
@@ -247,27 +233,23 @@ fn join_sizes(pieces: &mut [Piece], sizes: &[Vec<Piece>]) {
     }
 }
 
-/// True for the key of a text that names the sample size.
 pub fn is_sample_size(key: &str) -> bool {
     plain(key) == "samplesize"
 }
 
-/// True for the key of a text that names the garment or its sample size.
+/// True for a text of the garment or its sample size.
 fn is_of_garment(key: &str) -> bool {
     is_sample_size(key)
         || ["style", "stylename", "stylenumber", "styleno", "model", "modelname"].contains(&plain(key).as_str())
 }
 
-/// A key in lower case, without blanks and underscores.
+/// Lower case, without blanks and underscores.
 fn plain(key: &str) -> String {
     key.to_ascii_lowercase().replace(['_', ' '], "")
 }
 
-/// Reads a DXF file. `unit` overrides the unit of the file. `file_name` is used in messages.
-///
-/// [`DxfError`] if the file is empty, binary, truncated or no DXF, has a malformed number, names an unknown unit or
-/// code page, or the `dxf` crate loses an entity. A block that cannot be used is no error: it is listed in
-/// [`PatternFile::refused`].
+/// `unit` overrides the unit of the file, `file_name` is for messages. A block that cannot be used is no error: it is
+/// listed in [`PatternFile::refused`]. Fails also where the `dxf` crate loses an entity.
 pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<PatternFile, DxfError> {
     let tags = tags::scan(bytes, file_name)?;
     let inventory = take_inventory(&tags, file_name)?;
@@ -324,7 +306,6 @@ pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<Pattern
 }
 
 impl PatternFile {
-    /// Adds the pieces of all blocks, and those drawn outside all blocks.
     fn add_all(&mut self, drawing: &Drawing, inventory: &Inventory<'_>) {
         let placement = Placement::scaled(geom::units::from_mm(self.unit.mm_per_unit()));
         let blocks: Vec<&Block> = drawing.blocks().collect();
@@ -396,8 +377,7 @@ impl PatternFile {
         }
     }
 
-    /// Leaves out pieces that draw a piece of another size again, under that size and a number (`M-1`): CAD programs
-    /// keep such copies beside the original.
+    /// Leaves out pieces that draw a piece again under its size and a number (`M-1`): CAD programs keep such copies.
     fn drop_shadows(&mut self) {
         let is_drawn_by = |piece: &Piece, of: &str, other: &Piece| {
             other.name == piece.name
@@ -420,8 +400,8 @@ impl PatternFile {
         self.pieces.retain(|_| !is_shadow.next().unwrap_or(false));
     }
 
-    /// Gives pieces without texts the texts of the piece of the same name in another size: CAD programs write texts in
-    /// the sample size alone.
+    /// Copies the texts of the piece of the same name in another size: CAD programs write texts in the sample size
+    /// alone.
     fn share_texts(&mut self) {
         let has_texts = |(_, piece): &(usize, &Piece)| !piece.texts.is_empty();
         // Of several pieces of a name, the first counts.
@@ -456,13 +436,13 @@ impl PatternFile {
     }
 }
 
-/// True if a block is a layout: the model or paper space of DXF.
+/// True for the model or paper space of DXF.
 fn is_layout(block: &str) -> bool {
     let name = block.trim_start_matches(['*', '$']).to_ascii_uppercase();
     name.len() < block.len() && (name.starts_with("MODEL_SPACE") || name.starts_with("PAPER_SPACE"))
 }
 
-/// Names of the blocks that entities insert, in upper case.
+/// In upper case.
 fn inserted<'e>(entities: impl Iterator<Item = &'e Entity>) -> BTreeSet<String> {
     let name = |entity: &'e Entity| match &entity.specific {
         EntityType::Insert(insert) => Some(insert.name.to_ascii_uppercase()),
@@ -471,7 +451,6 @@ fn inserted<'e>(entities: impl Iterator<Item = &'e Entity>) -> BTreeSet<String> 
     entities.filter_map(name).collect()
 }
 
-/// Warning if a block is inserted at another scale than it is stored in.
 fn scaled_insert(entity: &Entity) -> Option<String> {
     let EntityType::Insert(insert) = &entity.specific else { return None };
     let (x, y) = (insert.x_scale_factor, insert.y_scale_factor);
@@ -479,7 +458,7 @@ fn scaled_insert(entity: &Entity) -> Option<String> {
         .then(|| format!("block `{}` is inserted {x} x {y} times its size: it is read as stored", insert.name))
 }
 
-/// Loads the clean tags with the `dxf` crate, and compares its entities with the inventory.
+/// Compares the entities of the `dxf` crate with the inventory.
 fn load(inventory: &Inventory<'_>, code_page: CodePage, file: &str) -> Result<Drawing, DxfError> {
     let mut clean = Vec::new();
     if let Some(version) = inventory.header.get("$ACADVER") {

@@ -2,17 +2,16 @@
 
 use dxf::entities::MText;
 
-/// Formatting codes that end with a semicolon: font, colour, height, width, slant, spacing, alignment, paragraph.
+/// Codes that end with a semicolon: font, colour, height, width, slant, spacing, alignment, paragraph.
 const WITH_VALUE: &str = "fFcCHWQTAp";
-/// Formatting codes without a value: underline, overline, strike-through, on and off.
+/// Underline, overline, strike-through, on and off.
 const TOGGLES: &str = "LlOoKk";
 
-/// Lines of an entity.
 pub fn lines_of(text: &MText) -> Vec<String> {
     lines(&(text.extended_text.concat() + &text.text))
 }
 
-/// Lines of the content of an MTEXT. A TEXT without a backslash or brace is a line as it is.
+/// A TEXT without a backslash or brace is a line as it is.
 pub fn lines(content: &str) -> Vec<String> {
     let mut lines = vec![String::new()];
     let mut rest = content.chars();

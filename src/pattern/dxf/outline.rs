@@ -6,52 +6,49 @@ use geom::V2;
 use geom::polyline::{crossing_sides, self_crossing, signed_area};
 use geom::units::mm;
 
-/// Greatest gap between the ends of boundary lines that join, m.
+/// Greatest gap between ends that join.
 pub const JOIN_M: f64 = 0.05e-3;
-/// Distance below which points count as equal, m.
+/// Distance below which points count as equal.
 const SAME_M: f64 = 1e-6;
-/// Greatest number of vertices of an outline. A piece has some hundreds.
+/// A piece has some hundreds.
 const MOST_VERTICES: usize = 20_000;
-/// Greatest number of lines of an outline. An outline that is drawn segment by segment has some hundreds.
+/// An outline that is drawn segment by segment has some hundreds.
 pub const MOST_LINES: usize = 5_000;
-/// Greatest area of the loops of a cut line, as a share of the piece. The loops of trousers with pockets enclose a
-/// thousandth.
+/// Greatest area of the loops of a cut line, as a share of the piece. Trousers with pockets have a thousandth.
 pub const LOOPS_SHARE: f64 = 0.01;
-/// Greatest area of the loops of an outline that is sewn, m2: a knot from grading, smaller than scissors could follow.
+/// Greatest area of the loops of a sewn outline: a knot from grading, smaller than scissors could follow.
 pub const TRIFLE_M2: f64 = 1e-5;
-/// Greatest number of loops of a cut line, which has at most a few at each inner corner.
+/// A cut line has at most a few at each inner corner.
 const MOST_LOOPS: usize = 200;
 
-/// Greatest width of a spike, m: each of its two sides may be off by half of a thousandth of an inch, the coarsest grid
-/// on which programs write.
+/// Greatest width of a spike: each side may be off by half of a thousandth of an inch, the coarsest grid on which
+/// programs write.
 const SPIKE_M: f64 = 0.026e-3;
 
 /// Greatest slope of one side of a spike relative to the other. A short sharp corner has a greater one.
 const SPIKE_SLOPE: f64 = 1e-3;
 
-/// Distance below which two corners of an outline touch, m.
+/// Distance below which two corners touch.
 const TOUCHING_M: f64 = 0.01e-3;
 
-/// Distance by which touching corners are moved inwards, m.
+/// Distance by which touching corners are moved inwards.
 const PARTED_M: f64 = 0.02e-3;
 
-/// A polyline as drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// Points, at least one.
+    /// At least one.
     pub points: Vec<V2>,
-    /// True if the line is drawn as closed.
+    /// Drawn as closed.
     pub is_closed: bool,
 }
 
 impl Line {
-    /// Makes a line without repeated points. `None` without points.
+    /// Drops repeated points. `None` without points.
     pub fn new(mut points: Vec<V2>, is_closed: bool) -> Option<Self> {
         points.dedup_by(|later, earlier| (*later - *earlier).norm() < SAME_M);
         (!points.is_empty()).then_some(Self { points, is_closed })
     }
 
-    /// First and last point.
     pub fn ends(&self) -> [V2; 2] {
         [self.points[0], self.points[self.points.len() - 1]]
     }
@@ -61,19 +58,18 @@ impl Line {
         (end - start).norm()
     }
 
-    /// True if the line is drawn as closed, or ends where it begins.
+    /// True also for a line that ends where it begins.
     pub fn closes(&self) -> bool {
         self.is_closed || (self.points.len() > 2 && self.gap() < JOIN_M && !self.is_slit())
     }
 
-    /// True if the line only runs out and back along itself, as the two sides of a slit. It ends where it begins, but
-    /// the outline continues there.
+    /// True if the line only runs out and back along itself. It ends where it begins, but the outline continues there.
     fn is_slit(&self) -> bool {
         let length: f64 = self.points.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum();
         signed_area(&self.points).abs() < JOIN_M * length
     }
 
-    /// True if another line has the same points, in the same or the reverse order.
+    /// True for the same points in the same or the reverse order.
     pub fn is_drawn_again_by(&self, other: &Self) -> bool {
         let near = |(a, b): (&V2, &V2)| (a - b).norm() < SAME_M;
         self.points.len() == other.points.len()
@@ -82,7 +78,7 @@ impl Line {
     }
 }
 
-/// Separates lines from their duplicates, and returns both.
+/// Returns the lines and their duplicates.
 pub fn without_copies(lines: Vec<Line>) -> (Vec<Line>, Vec<Line>) {
     let (mut kept, mut copies): (Vec<Line>, Vec<Line>) = (Vec::new(), Vec::new());
     let mut seen: HashMap<[i64; 2], Vec<usize>> = HashMap::new();
@@ -104,17 +100,16 @@ pub fn without_copies(lines: Vec<Line>) -> (Vec<Line>, Vec<Line>) {
     (kept, copies)
 }
 
-/// Cell of a grid of width [`JOIN_M`] that holds a point.
+/// Cell of a grid of width [`JOIN_M`].
 fn cell(point: &V2) -> [i64; 2] {
     [point.x, point.y].map(|x| (x / JOIN_M).floor() as i64)
 }
 
-/// A cell and its neighbours.
 fn around([x, y]: [i64; 2]) -> impl Iterator<Item = [i64; 2]> {
     (-1..=1).flat_map(move |i: i64| (-1..=1).map(move |j: i64| [x.saturating_add(i), y.saturating_add(j)]))
 }
 
-/// Index of the ends of unused lines, by grid cell.
+/// Ends of unused lines, by grid cell.
 struct Ends<'a> {
     lines: &'a [Line],
     by_cell: HashMap<[i64; 2], Vec<usize>>,
@@ -132,8 +127,7 @@ impl<'a> Ends<'a> {
         Self { lines, by_cell, left: (0..lines.len()).collect() }
     }
 
-    /// Takes the first unused line that begins or ends at a point, with its points in the order that leads away from
-    /// there.
+    /// Takes the first unused line at a point, in the order that leads away from there.
     fn take_at(&mut self, place: &V2) -> Option<Vec<V2>> {
         let touches = |index: &usize| self.lines[*index].ends().iter().any(|end| (end - place).norm() < JOIN_M);
         let near = around(cell(place)).filter_map(|key| self.by_cell.get(&key)).flatten().copied();
@@ -147,7 +141,7 @@ impl<'a> Ends<'a> {
     }
 }
 
-/// Joins lines end to end where they meet. Each chain begins with the first unused line of the file.
+/// Joins lines end to end. Each chain begins with the first unused line of the file.
 pub fn chains(lines: &[Line]) -> Vec<Line> {
     let mut ends = Ends::of(lines);
     let mut chains = Vec::new();
@@ -168,7 +162,7 @@ pub fn chains(lines: &[Line]) -> Vec<Line> {
     chains
 }
 
-/// Joins lines into one closed polygon, the first vertex not repeated.
+/// Joins lines into one polygon, the first vertex not repeated. Fails where there is none, or more than one.
 pub fn joined(lines: &[Line], what: &str) -> Result<Vec<V2>, String> {
     let mut chains = chains(lines).into_iter();
     let Some(first) = chains.next() else {
@@ -212,8 +206,8 @@ pub fn check_simple(outline: &[V2], what: &str) -> Result<(), String> {
     }
 }
 
-/// Removes the loops of a line that crosses itself, and returns their places. A cut line at a constant distance from
-/// the sew line has loops at inner corners and pocket mouths.
+/// Removes loops, and returns their places: a cut line has them at inner corners and pocket mouths. Fails where they
+/// enclose more than `trifle_m2`.
 pub fn cut_loops(outline: &mut Vec<V2>, what: &str, trifle_m2: f64) -> Result<Vec<V2>, String> {
     let (mut places, mut cut) = (Vec::new(), 0.0);
     while let Some(([first, second], at)) = crossing_sides(outline) {
@@ -233,7 +227,7 @@ pub fn cut_loops(outline: &mut Vec<V2>, what: &str, trifle_m2: f64) -> Result<Ve
     Ok(places)
 }
 
-/// Removes the spikes of an outline, where it runs out and back along one line and encloses no area. Returns the tips.
+/// Removes spikes, which run out and back along one line and enclose no area. Returns the tips.
 pub fn cut_spikes(outline: &mut Vec<V2>) -> Vec<V2> {
     let (mut tips, mut at, mut passed) = (Vec::new(), 0, 0);
     while outline.len() > 3 && passed < outline.len() {
@@ -267,8 +261,8 @@ fn is_spike(before: &V2, tip: &V2, after: &V2) -> bool {
     short.dot(&long) > 0.0 && apart_m < SPIKE_M.min(SPIKE_SLOPE * short.norm())
 }
 
-/// Moves touching corners of an outline inwards a little, and returns where they were. The two edges of a dart that run
-/// on together to the hem touch like this.
+/// Moves touching corners inwards a little, and returns where they were. The edges of a dart that run on together to
+/// the hem touch like this.
 pub fn part_touching(outline: &mut [V2]) -> Vec<V2> {
     if self_crossing(outline).is_none() {
         return Vec::new();
@@ -298,7 +292,7 @@ pub fn part_touching(outline: &mut [V2]) -> Vec<V2> {
     touching.into_iter().map(|v| drawn[v]).collect()
 }
 
-/// Reverses a clockwise polygon, keeping its first vertex. Returns true if the polygon was reversed.
+/// Keeps the first vertex. Returns true if the polygon was reversed.
 pub fn counter_clockwise(polygon: &mut [V2]) -> bool {
     let is_clockwise = signed_area(polygon) < 0.0;
     if is_clockwise {
@@ -308,7 +302,6 @@ pub fn counter_clockwise(polygon: &mut [V2]) -> bool {
     is_clockwise
 }
 
-/// Text of a point for messages.
 pub fn text_mm(point: &V2) -> String {
     format!("({:.2}, {:.2}) mm", mm(point.x), mm(point.y))
 }

@@ -8,19 +8,19 @@ use geom::V2;
 use geom::polyline::{Polyline, segment_distance, signed_area};
 use geom::units::mm;
 
-/// Distance below which curve and points are the same line, m: coordinates of files are rounded to 0.1 mm.
+/// Coordinates of files are rounded to 0.1 mm.
 const SAME_M: f64 = 0.2e-3;
-/// Distance below which a curve ends at a vertex, or passes through one, m.
+/// Distance below which a curve ends at a vertex, or passes through one.
 const AT_VERTEX_M: f64 = 0.5e-3;
-/// Greatest distance of a curve from the points that it explains, as a share of its length. The arc over a chord of a
-/// right angle bulges by a tenth.
+/// Greatest distance of a curve from the points that it explains, as a share of its length. An arc over a right angle
+/// bulges by a tenth.
 const FARTHEST: f64 = 0.1;
-/// Points of the curve that are taken between two vertices of the line: the same number in every size, so that vertices
-/// of all sizes still correspond. A chord that is 5 mm off its arc becomes five that are 0.2 mm off.
+/// Points taken between two vertices: the same number in every size, so that vertices of all sizes correspond. A chord
+/// 5 mm off its arc becomes five that are 0.2 mm off.
 const BETWEEN: usize = 4;
 
 /// Replaces the parts of a closed line that quality curves draw again, and keeps its vertices. Returns the greatest
-/// distance between line and curves, m. `None` if it is below the rounding of files.
+/// distance, m; `None` if it is below the rounding of files.
 pub fn follow(line: &mut Vec<V2>, curves: &[Line]) -> Option<f64> {
     let mut farthest_m = 0.0_f64;
     for curve in chains(curves) {
@@ -37,7 +37,7 @@ pub fn follow(line: &mut Vec<V2>, curves: &[Line]) -> Option<f64> {
     (farthest_m > SAME_M).then_some(farthest_m)
 }
 
-/// Remark on a line that follows its quality curve. `drawn` is its number of vertices before.
+/// `drawn` is the number of vertices before.
 pub fn remark(block: &str, what: &str, layer: &str, drawn: usize, away_m: f64) -> String {
     format!(
         "block `{block}`: its {what} is sewn along its quality curve (layer {layer}), up to {:.1} mm from the {drawn} points",
@@ -49,13 +49,12 @@ pub fn remark(block: &str, what: &str, layer: &str, drawn: usize, away_m: f64) -
 struct Section {
     /// Index of the first vertex.
     from: usize,
-    /// Number of sides.
     steps: usize,
-    /// Points of the curve, in the direction of the line.
+    /// In the direction of the line.
     points: Vec<V2>,
 }
 
-/// Section of a closed curve: the whole line, from its vertex nearest to the first point of the curve.
+/// Section of a closed curve, from the vertex nearest to its first point.
 fn whole(line: &[V2], curve: &Line) -> Option<Section> {
     let mut points = curve.points.clone();
     if points.len() > 1 && curve.gap() < AT_VERTEX_M {
@@ -72,7 +71,7 @@ fn whole(line: &[V2], curve: &Line) -> Option<Section> {
     Some(Section { from, steps: line.len(), points })
 }
 
-/// Section of an open curve between two vertices of the line: of both ways round, the one nearer to it in length.
+/// Section of an open curve: of both ways round, the one nearer to it in length.
 fn part(line: &[V2], curve: &Line) -> Option<Section> {
     let n = line.len();
     let [a, b] = curve.ends().map(|end| vertex_at(line, &end));
@@ -93,8 +92,7 @@ fn part(line: &[V2], curve: &Line) -> Option<Section> {
     (from != to).then(|| Section { from, steps: way(from, to), points })
 }
 
-/// Vertices of the old line but its ends, with points of the curve between them. `None` if the curve does not pass them in
-/// their order.
+/// Vertices without the ends, with points of the curve between them. `None` if the curve does not pass them in order.
 fn between(old: &[V2], curve: Vec<V2>) -> Option<Vec<V2>> {
     let curve = Polyline::new(curve)?;
     let mut arcs = vec![0.0];
@@ -126,7 +124,7 @@ fn vertex_at(line: &[V2], place: &V2) -> Option<usize> {
     (0..line.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).filter(|k| distance(k) < AT_VERTEX_M)
 }
 
-/// Greatest distance of the points of a line from another line, m.
+/// Greatest distance of `points` from another line, m.
 fn away(points: &[V2], line: &[V2]) -> f64 {
     let distance = |point: &V2| {
         line.windows(2).map(|ends| segment_distance(&ends[0], &ends[1], point)).fold(f64::INFINITY, f64::min)

@@ -4,14 +4,12 @@ use super::outline::{JOIN_M, Line, chains, check_simple, closed, counter_clockwi
 use geom::V2;
 use geom::polyline::{contains, signed_area};
 
-/// Least area of a closed line on layer 8 that is a sew line, as a share of the outline. Old Valentina files draw it
-/// there.
+/// Least share of the outline that a closed line on layer 8 encloses as sew line. Old Valentina files draw it there.
 const SEW_LINE_SHARE: f64 = 0.5;
-/// Distance below which a sew line ends on the outline, m.
+/// Distance below which a sew line ends on the outline.
 const ON_OUTLINE_M: f64 = 0.1e-3;
 
-/// Sew line of a piece: on layer 14, or in files of old Valentina a closed line on layer 8 that encloses most of the
-/// piece.
+/// Takes layer 14, or in files of old Valentina a closed line on layer 8 that encloses most of the piece.
 pub fn sew_line(on_14: Vec<Line>, internal: &mut Vec<Line>, outline: &[V2]) -> Result<Option<Vec<V2>>, String> {
     let mut line = if on_14.is_empty() {
         let is_sew_line = |line: &Line| {
@@ -29,8 +27,8 @@ pub fn sew_line(on_14: Vec<Line>, internal: &mut Vec<Line>, outline: &[V2]) -> R
     Ok(Some(line))
 }
 
-/// Closes chains that end on the outline, by following the outline from one chain to the next. Sew lines are drawn like
-/// this for a half piece (up to the fold) and for a piece with an edge without allowance.
+/// Closes chains that end on the outline by following it to the next chain. A half piece (up to the fold) and a piece
+/// with an edge without allowance are drawn like this.
 fn closed_on(lines: &[Line], outline: &[V2], what: &str) -> Result<Vec<V2>, String> {
     let chains = chains(lines);
     let along = Along::new(outline);
@@ -67,10 +65,9 @@ fn closed_on(lines: &[Line], outline: &[V2], what: &str) -> Result<Vec<V2>, Stri
     closed(Line { points, is_closed: true }, what)
 }
 
-/// An outline parametrised by arc length.
 struct Along<'a> {
     outline: &'a [V2],
-    /// Arc length at each vertex, and at the end, m.
+    /// At each vertex, and at the end, m.
     arcs: Vec<f64>,
 }
 
@@ -84,7 +81,7 @@ impl<'a> Along<'a> {
         Self { outline, arcs }
     }
 
-    /// Arc length of a point on the outline, m. `None` for a point off the outline.
+    /// In m. `None` for a point off the outline.
     fn arc_of(&self, point: &V2) -> Option<f64> {
         let n = self.outline.len();
         let side = |i: usize| {
@@ -97,7 +94,7 @@ impl<'a> Along<'a> {
         nearest.filter(|(distance_m, _)| *distance_m < ON_OUTLINE_M).map(|(_, arc)| arc)
     }
 
-    /// Vertices between two arc lengths, in the direction of the outline.
+    /// In the direction of the outline.
     fn between(&self, from: f64, to: f64) -> Vec<V2> {
         let total = self.arcs[self.outline.len()];
         let ahead = |arc: f64| (arc - from).rem_euclid(total);

@@ -10,7 +10,7 @@ use super::*;
 use crate::inspect::FileReport;
 use crate::piece::Piece;
 
-/// Tags written as `code value` lines, separated by `;`.
+/// Takes `code value` lines, separated by `;`.
 fn tags(text: &str) -> String {
     let tag = |tag: &str| {
         let (code, value) = tag.trim().split_once(' ').unwrap_or((tag.trim(), ""));
@@ -49,7 +49,6 @@ fn read_all(bytes: &[u8]) -> PatternFile {
     read(bytes, "a.dxf", None).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The single piece of a file with one block.
 fn only(entities: &str) -> (Piece, Vec<String>) {
     let mut file = read_all(&sections(&block("P", entities), "0 INSERT; 8 1; 2 P; 10 0; 20 0;"));
     assert!(file.refused.is_empty() && file.pieces.len() == 1, "{:?} {:?}", file.refused, file.pieces.len());
@@ -216,7 +215,6 @@ fn large_and_binary_files_are_told_apart() {
     check(&b"999\na\n".repeat(12_000_000), "72 MB");
 }
 
-/// One piece, written by another program in the versions of DXF.
 #[test]
 fn versions_from_r12_to_2013_read_the_same() {
     let all = [
@@ -271,7 +269,6 @@ fn versions_from_r12_to_2013_read_the_same() {
     }
 }
 
-/// Lines through points, closed if asked.
 fn path(layer: &str, points: &[(f64, f64)]) -> String {
     points.windows(2).map(|ends| line(layer, [ends[0].0, ends[0].1, ends[1].0, ends[1].1])).collect()
 }

@@ -2,48 +2,45 @@
 
 use super::DxfError;
 
-/// Greatest size of a file, bytes. A nest of 15 sizes has some megabytes.
+/// A nest of 15 sizes has some megabytes.
 pub const MOST_BYTES: usize = 64 << 20;
-/// Greatest number of tags of a file. Each takes some 100 bytes of memory.
+/// Each takes some 100 bytes of memory.
 const MOST_TAGS: usize = 5_000_000;
 
-/// A tag: a pair of lines.
+/// A pair of lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tag<'a> {
-    /// Group code, which tells the meaning of the value.
+    /// Tells the meaning of the value.
     pub code: i32,
-    /// Value without its line end.
+    /// Without its line end.
     pub value: &'a [u8],
-    /// Line number of the value, from 1.
+    /// Line of the value, from 1.
     pub line: usize,
 }
 
 impl Tag<'_> {
-    /// Value as text to compare with keywords, trimmed. Only ASCII is decoded.
+    /// Trimmed. Only ASCII is decoded.
     pub fn keyword(&self) -> &str {
         std::str::from_utf8(self.value.trim_ascii()).unwrap_or("")
     }
 
-    /// True for the start of a record: group code 0 with this value.
+    /// True for group code 0 with this value.
     pub fn begins(&self, keyword: &str) -> bool {
         self.code == 0 && self.keyword() == keyword
     }
 }
 
-/// Type of the value of a group code [DXF reference, group code value types].
+/// Types of [DXF reference, group code value types].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ValueType {
-    /// A real number.
     Real,
-    /// An integer within these bounds.
+    /// Lower and upper bound.
     Integer(i64, i64),
-    /// Text, handles, binary chunks.
+    /// Also handles and binary chunks.
     Text,
-    /// Code that DXF does not define.
     Undefined,
 }
 
-/// Type of the value of a group code.
 pub fn value_type(code: i32) -> ValueType {
     match code {
         10..=59 | 110..=149 | 210..=239 | 460..=469 | 1010..=1059 => ValueType::Real,
@@ -59,7 +56,7 @@ pub fn value_type(code: i32) -> ValueType {
     }
 }
 
-/// Reads the tags up to and including `0/EOF`.
+/// Reads up to and including `0/EOF`.
 pub fn scan<'a>(bytes: &'a [u8], file: &str) -> Result<Vec<Tag<'a>>, DxfError> {
     let fail = |line: Option<usize>, found: String, accepted: &str| Err(DxfError::new(file, line, found, accepted));
     if bytes.trim_ascii().is_empty() {
@@ -116,7 +113,7 @@ pub fn scan<'a>(bytes: &'a [u8], file: &str) -> Result<Vec<Tag<'a>>, DxfError> {
     )
 }
 
-/// Kind of a file that is not text. `None` for text.
+/// `None` for text.
 fn binary_kind(bytes: &[u8]) -> Option<&'static str> {
     let known: [(&[u8], &str); 8] = [
         (b"AutoCAD Binary DXF", "a binary DXF file"),
@@ -132,7 +129,6 @@ fn binary_kind(bytes: &[u8]) -> Option<&'static str> {
     kind.or_else(|| bytes.contains(&0).then_some("a binary file"))
 }
 
-/// Beginning of a text, for messages.
 pub fn clipped(text: &str) -> String {
     let mut short: String = text.chars().take(40).collect();
     if short.len() < text.len() {

@@ -15,7 +15,7 @@ fn shared(folder: &str) -> Option<PathBuf> {
     Some(path)
 }
 
-/// Checks all DXF files of a folder of sample patterns against the table of their contents.
+/// Compares all files of a folder with the table of their contents.
 fn check_folder(folder: &str, allowed_refusals: usize) {
     let Some(path) = shared(folder) else { return };
     let mut rows: BTreeMap<String, Vec<csv::StringRecord>> = BTreeMap::new();
@@ -123,7 +123,7 @@ fn what_is_written_is_read_back() {
     }
 }
 
-/// A drafted file with one occurrence of a text replaced.
+/// Replaces one occurrence of a text in a drafted file.
 fn edited(from: &str, to: &str) -> Vec<u8> {
     let text = String::from_utf8(tshirt(TshirtSize::S).dxf()).expect("we write ASCII");
     assert!(text.contains(from), "`{from}` is in the file");
@@ -384,7 +384,7 @@ fn names_follow_the_code_page() {
     assert_eq!(report.as_written().pieces[2].block, "Ðóêàâ");
 }
 
-/// Files of other programs that are damaged on purpose.
+/// Files that are damaged on purpose.
 const SAMPLES: [&str; 4] = [
     "freesewing/teagan_cisFemaleAdult36_c3d.dxf",
     "freesewing/teagan_nest_aama-inch.dxf",

@@ -7,25 +7,22 @@ use super::mtext;
 use super::tags::clipped;
 use crate::trade;
 
-/// Unit of length of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Unit {
-    /// Millimetre (`Units: METRIC`).
+    /// `Units: METRIC`.
     Mm,
-    /// Centimetre (`Units: CM`).
+    /// `Units: CM`.
     Cm,
-    /// Inch (`Units: ENGLISH`).
+    /// `Units: ENGLISH`.
     In,
-    /// Metre (`Units: M`).
+    /// `Units: M`.
     M,
 }
 
 impl Unit {
-    /// All supported units.
     pub const ALL: [Self; 4] = [Self::Mm, Self::Cm, Self::In, Self::M];
 
-    /// Millimetres in one unit.
     pub fn mm_per_unit(self) -> f64 {
         match self {
             Self::Mm => 1.0,
@@ -46,30 +43,26 @@ impl Unit {
     }
 }
 
-/// Source of the unit of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnitSource {
-    /// The user.
+    /// By the user.
     Given,
     /// A `Units:` text, `$INSUNITS` or `$MEASUREMENT`.
     File,
-    /// No source: millimetres by default.
+    /// Millimetres by default.
     Assumed,
 }
 
-/// A unit that the file names.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Claim {
-    /// Unit that is named.
     pub unit: Unit,
     /// Name of the text or header variable.
     pub by: &'static str,
-    /// Line number of the text or header value, from 1.
+    /// Of the text or header value, from 1.
     pub line: usize,
 }
 
-/// Units that a file names, the one that counts first. A `Units:` text [AAMA-292] precedes `$INSUNITS`, which precedes
-/// `$MEASUREMENT`.
+/// The one that counts first: a `Units:` text [AAMA-292], then `$INSUNITS`, then `$MEASUREMENT`.
 pub fn claims(inventory: &Inventory<'_>, file: &str) -> Result<Vec<Claim>, DxfError> {
     let mut claims = Vec::new();
     let texts = inventory.texts.iter().flat_map(|&Located { bytes, line }| {
@@ -139,29 +132,25 @@ pub fn contradictions(claims: &[Claim]) -> Vec<String> {
     claims.iter().filter(|claim| claim.unit != first.unit).map(warning).collect()
 }
 
-/// Warning if the file names another unit than the user.
 pub fn overruled(claims: &[Claim], given: Unit) -> Option<String> {
     let claim = claims.first().filter(|claim| claim.unit != given)?;
     let Claim { unit, by, line } = claim;
     Some(format!("{by} (line {line}) says {}: --unit {} is taken instead", unit.as_str(), given.as_str()))
 }
 
-/// Pages of files that name none, the likeliest first: those of CAD programs of Europe, China, Japan, Taiwan, Korea,
-/// Russia, Turkey and Greece.
+/// The likeliest first: those of CAD programs of Europe, China, Japan, Taiwan, Korea, Russia, Turkey and Greece.
 const UNNAMED_PAGES: [&str; 13] =
     ["1252", "936", "932", "950", "949", "1251", "1254", "1250", "1253", "850", "437", "866", "koi8-r"];
 
-/// Encoding of the texts, and a remark where it is a guess.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Encoding {
-    /// Encoding.
     pub page: CodePage,
-    /// Remark for the user. `None` where the file says its encoding, or has ASCII alone.
+    /// `None` where the file says its encoding, or has ASCII alone.
     pub remark: Option<String>,
 }
 
-/// Encoding of the texts: UTF-8 from AutoCAD 2007 on, or if all texts are valid UTF-8, whatever the header says.
-/// Otherwise `$DWGCODEPAGE`. A file without one is read in the page in which most of its words are words of the trade.
+/// UTF-8 from AutoCAD 2007 on, or if all texts are valid UTF-8, whatever the header says; otherwise `$DWGCODEPAGE`.
+/// Without one, the page in which most words are words of the trade.
 pub fn code_page(inventory: &Inventory<'_>, file: &str) -> Result<Encoding, DxfError> {
     let said = |page| Ok(Encoding { page, remark: None });
     let version = inventory.header.get("$ACADVER").map_or("", |entry| entry.value);
@@ -186,7 +175,7 @@ pub fn code_page(inventory: &Inventory<'_>, file: &str) -> Result<Encoding, DxfE
     }
 }
 
-/// Code page in which the words of a file have most letters beyond ASCII that belong to words of the trade.
+/// Page in which the words of the trade have most letters beyond ASCII.
 fn guessed(inventory: &Inventory<'_>, file: &str) -> Encoding {
     let letters = |page: CodePage| -> usize {
         let texts = inventory.words().filter(|bytes| !bytes.is_ascii()).map(|bytes| page.decoded(bytes));

@@ -8,7 +8,7 @@ use crate::piece::Piece;
 use geom::V2;
 use geom::units::mm;
 
-/// Candidate code pages for texts, by their names in `$DWGCODEPAGE`.
+/// Candidates, by their names in `$DWGCODEPAGE`.
 const CODE_PAGES: [(&str, &encoding_rs::Encoding); 4] = [
     ("ANSI_1252", encoding_rs::WINDOWS_1252),
     ("ANSI_1250", encoding_rs::WINDOWS_1250),
@@ -16,7 +16,6 @@ const CODE_PAGES: [(&str, &encoding_rs::Encoding); 4] = [
     ("ANSI_1253", encoding_rs::WINDOWS_1253),
 ];
 
-/// Standard of a written file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Standard {
     /// ANSI/AAMA-292: grade rules are on the layer of the point that they move.
@@ -26,7 +25,7 @@ pub enum Standard {
     Astm,
 }
 
-/// Writes pieces as DXF in millimetres by a standard. The texts of the style stand outside the blocks.
+/// Writes millimetres. The texts of the style stand outside the blocks.
 ///
 /// A file with ASCII texts is plain R12. Otherwise it names the first code page that has all letters of the texts. If
 /// none has, it is UTF-8 in the version of AutoCAD 2007.
@@ -54,7 +53,7 @@ pub fn write_pieces(pieces: &[Piece], style: &[(String, String)], standard: Stan
     [head.text.into_bytes(), bytes].concat()
 }
 
-/// Writes blocks and entities. There are no tables: R12 needs none, and AccuMark refuses files with tables.
+/// There are no tables: R12 needs none, and AccuMark refuses files with tables.
 fn body(pieces: &[Piece], style: &[(String, String)], standard: Standard) -> String {
     let mut out = Out { text: String::new(), standard };
     let names = block_names(pieces);
@@ -78,10 +77,9 @@ fn body(pieces: &[Piece], style: &[(String, String)], standard: Standard) -> Str
     out.text
 }
 
-/// Text by which a file declares ASTM D6673.
 pub(crate) const D6673: &str = "ASTM/D13Proposal 1 Version: D 6673-04";
 
-/// Distance below which a grade point counts as on a turn point, m.
+/// Distance below which a grade point counts as on a turn point.
 const ON_POINT_M: f64 = 0.1e-3;
 
 struct Out {
@@ -113,7 +111,7 @@ impl Out {
         self.tag(code, &format!("{:.4}", value + 0.0).replace("-0.0000", "0.0000"));
     }
 
-    /// Writes coordinates in millimetres. `code` is the group code of x.
+    /// Writes millimetres. `code` is the group code of x.
     fn point(&mut self, code: i32, point: &V2) {
         self.number(code, mm(point.x));
         self.number(code + 10, mm(point.y));
@@ -129,7 +127,7 @@ impl Out {
         }
     }
 
-    /// Quantity in the form of the standard: AAMA counts all pieces, ASTM left and right separately.
+    /// AAMA counts all pieces, ASTM left and right separately.
     fn quantity(&self, written: &str) -> String {
         let parts: Option<Vec<u32>> = written.split(',').map(|part| part.trim().parse().ok()).collect();
         match (self.standard, parts.as_deref()) {
@@ -222,7 +220,7 @@ mod tests {
     use crate::draft::Model;
     use crate::{Style, dxf};
 
-    /// Content of a file, tag by tag: the texts of every block by its name, and the names that are inserted.
+    /// Texts of every block by its name, and the names that are inserted.
     fn blocks_and_inserts(bytes: &[u8]) -> (Vec<(String, Vec<String>)>, Vec<String>) {
         let text = String::from_utf8(bytes.to_vec()).expect("UTF-8");
         let lines: Vec<&str> = text.lines().map(str::trim).collect();

@@ -14,44 +14,36 @@ use geom::V2;
 use geom::polyline::{self_crossing, signed_area};
 use geom::units::{from_mm, mm};
 
-/// Name of the format in the file.
 const FORMAT: &str = "toile pattern features";
-/// Version of the format that is written and read.
 const VERSION: u32 = 1;
-/// Steps per millimetre to which written lengths are rounded: 1 nm each.
+/// Rounds written lengths to 1 nm.
 const PER_MM: f64 = 1e6;
-/// Greatest coordinate, mm.
 const GREATEST_MM: f64 = 100_000.0;
 
-/// Error of reading pattern features.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}: {place}: found {found}; accepted: {accepted}")]
 pub struct FeaturesError {
-    /// Name of the file.
     pub file: String,
     /// Piece, or place in the JSON.
     pub place: String,
-    /// Description of what was found.
     pub found: String,
-    /// Description of what is accepted.
     pub accepted: String,
 }
 
-/// A point in the plane of the piece, `[x, y]`, mm.
+/// `[x, y]` in the plane of the piece, mm.
 type Place = [f64; 2];
 
-/// Root of the JSON document.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Features {
     format: String,
     version: u32,
-    /// Unit of all lengths, always `mm`.
+    /// Always `mm`.
     unit: String,
-    /// Name of the file that the features were taken from.
+    /// File that the features were taken from.
     #[serde(default)]
     source: String,
-    /// Texts of the style, `[key, value]`.
+    /// `[key, value]`.
     #[serde(default)]
     style: Vec<[String; 2]>,
     pieces: Vec<PieceFeatures>,
@@ -61,13 +53,13 @@ pub struct Features {
 #[serde(deny_unknown_fields)]
 struct PieceFeatures {
     information: Information,
-    /// Vertices, counter-clockwise in drawing order. The first is not repeated.
+    /// Counter-clockwise in drawing order. The first is not repeated.
     outline: Vec<Place>,
     #[serde(default)]
     drawn_clockwise: bool,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     sew_line: Option<Vec<Place>>,
-    /// Corners as vertices of the sewn line, numbered as in the seam file.
+    /// Vertices of the sewn line, numbered as in the seam file.
     #[serde(default)]
     corners: Vec<usize>,
     #[serde(default)]
@@ -80,7 +72,6 @@ struct PieceFeatures {
     reference_lines: ReferenceLines,
 }
 
-/// Identification of the piece.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Information {
@@ -90,16 +81,15 @@ struct Information {
     size: Option<String>,
     #[serde(default)]
     quantity: Option<String>,
-    /// Other texts, `[key, value]`.
+    /// `[key, value]`.
     #[serde(default)]
     texts: Vec<[String; 2]>,
 }
 
-/// An edge between corners.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct EdgeFeature {
-    /// Indices of its ends in `corners`.
+    /// Indices of its ends.
     corners: [usize; 2],
     length_mm: f64,
 }
@@ -145,7 +135,6 @@ struct ReferenceLines {
 }
 
 impl Features {
-    /// Features of the pieces of a pattern, with its source and the texts of its style.
     pub fn of(pieces: &[Piece], source: &str, style: &[(String, String)]) -> Self {
         Self {
             format: FORMAT.to_owned(),
@@ -254,7 +243,6 @@ impl PieceFeatures {
         }
     }
 
-    /// All points of the piece.
     fn all_places(&self) -> impl Iterator<Item = &Place> {
         let marks = &self.reference_points;
         let lines = &self.reference_lines;
@@ -272,7 +260,7 @@ impl PieceFeatures {
     }
 }
 
-/// Grade points with their rules, on the outline or inside the piece.
+/// Grade points with their rules, on the outline or inside.
 fn graded_places(piece: &Piece, is_inner: bool) -> Vec<(Place, u32)> {
     let graded = piece.grade_points.iter().filter(|graded| graded.is_inner == is_inner);
     graded.map(|graded| (place(&graded.at), graded.rule)).collect()
@@ -288,7 +276,6 @@ impl NotchFeature {
     }
 }
 
-/// Edges between corners of the sewn line.
 fn edges(outline: &[V2], corners: &[usize]) -> Vec<EdgeFeature> {
     let n = outline.len();
     let length = |from: usize, to: usize| -> f64 {
@@ -305,7 +292,6 @@ fn edges(outline: &[V2], corners: &[usize]) -> Vec<EdgeFeature> {
     (0..corners.len()).map(edge).collect()
 }
 
-/// True if JSON declares this format.
 pub fn is_features(json: &[u8]) -> bool {
     #[derive(Deserialize)]
     struct Head {
@@ -314,7 +300,7 @@ pub fn is_features(json: &[u8]) -> bool {
     serde_json::from_slice::<Head>(unmarked(json)).is_ok_and(|head| head.format == FORMAT)
 }
 
-/// Reads features of pieces as a pattern. `file` is its name for messages.
+/// Fails also where an outline is missing, encloses no area or crosses itself.
 pub fn read(bytes: &[u8], file: &str) -> Result<PatternFile, FeaturesError> {
     let fail = |place: &str, found: String, accepted: &str| FeaturesError {
         file: file.to_owned(),

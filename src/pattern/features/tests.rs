@@ -6,7 +6,7 @@ fn written(pieces: &[Piece]) -> Vec<u8> {
     serde_json::to_vec(&Features::of(pieces, "a.dxf", &[("Style Name".to_owned(), "Tee".to_owned())])).expect("JSON")
 }
 
-/// The piece rounded to the written decimals.
+/// Compares with the piece rounded to the written decimals.
 fn assert_same(read: &Piece, piece: &Piece) {
     let near = |a: &[V2], b: &[V2]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).norm() < 2e-9);
     assert!(near(&read.outline, &piece.outline), "{}", piece.name);
@@ -28,7 +28,6 @@ fn assert_same(read: &Piece, piece: &Piece) {
     assert_eq!(counts(read), counts(piece));
 }
 
-/// All pieces of the sample files and the drafts.
 fn samples() -> Vec<Piece> {
     let mut pieces = tshirt(TshirtSize::M).pieces;
     let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/patterns"));

@@ -14,15 +14,15 @@ use crate::style::{EdgeRef, Seam, Style};
 use geom::V2;
 use geom::polyline::Polyline;
 
-/// Greatest distance of a drawn curve from the cubic written for it, m.
+/// Greatest distance of a drawn curve from the cubic written for it.
 const TOLERANCE_M: f64 = 0.05e-3;
-/// Length below which a part is written straight, m.
+/// Length below which a part is written straight.
 const SHORTEST_M: f64 = 0.5e-3;
-/// Number of points of a part that are compared with its cubic.
+/// Points of a part that are compared with its cubic.
 const SAMPLES: usize = 33;
-/// Space between panels, m.
+/// Space between panels.
 const GAP_M: f64 = 0.05;
-/// Centimetres in a metre: the unit written.
+/// The unit written is centimetres.
 const UNITS_IN_METER: f64 = 100.0;
 
 /// Part of an edge between two arc lengths.
@@ -32,10 +32,8 @@ struct Part {
     arcs: [f64; 2],
 }
 
-/// GarmentCode document of a style. [`super::read`] reads the same pieces and seams from it.
-///
-/// Piece identifiers become panel names. Names of edges, corners, notches, grain and measurements are lost: the format
-/// cannot hold them.
+/// [`super::read`] reads the same pieces and seams. Piece identifiers become panel names. Names of edges, corners,
+/// notches, grain and measurements are lost: the format cannot hold them.
 pub fn document(style: &Style) -> Document {
     let style = &style.as_cut();
     let mut parts: Vec<Part> = Vec::new();
@@ -89,7 +87,7 @@ fn all_edges(style: &Style) -> impl Iterator<Item = EdgeRef> + '_ {
     style.pieces.iter().enumerate().flat_map(edges_of)
 }
 
-/// Pairs of parts that are sewn to each other, in order along the seam.
+/// Parts that are sewn together, in order along the seam.
 fn seam_parts(style: &Style, seam: &Seam) -> Vec<[Part; 2]> {
     let (a, b) = (Side::new(style, &seam.a, true), Side::new(style, &seam.b, seam.b_forwards));
     let mut shares: Vec<f64> = a.shares.iter().chain(&b.shares).copied().collect();
@@ -112,13 +110,13 @@ fn seam_parts(style: &Style, seam: &Seam) -> Vec<[Part; 2]> {
         .collect()
 }
 
-/// One side of a seam: its edges end to end in walking order.
+/// Edges of one side of a seam end to end in walking order.
 struct Side<'a> {
     style: &'a Style,
     chain: &'a [EdgeRef],
     is_forwards: bool,
     length: f64,
-    /// Shares of the length at which each edge begins, then 1.
+    /// Share of the length at which each edge begins, then 1.
     shares: Vec<f64>,
 }
 
@@ -132,7 +130,7 @@ impl<'a> Side<'a> {
         Self { style, chain, is_forwards, length, shares: ends.into_iter().map(|end| end / length).collect() }
     }
 
-    /// Part between two shares of the length, which must lie in one edge.
+    /// Takes shares of the length, which must lie in one edge.
     fn part(&self, from: f64, to: f64) -> Part {
         let middle = 0.5 * (from + to);
         let k = self.shares.partition_point(|&share| share <= middle).clamp(1, self.chain.len()) - 1;
@@ -155,8 +153,8 @@ impl<'a> Side<'a> {
     }
 }
 
-/// Bisects parts that are sewn together until each is straight, short or a cubic. `is_opposed` is true if the second
-/// part runs against the first.
+/// Bisects parts until each is straight, short or a cubic. `is_opposed` is true if the second part runs against the
+/// first.
 fn fitted(style: &Style, together: &[Part], is_opposed: bool) -> Vec<Vec<Part>> {
     let is_fine = |part: &Part| {
         let points = samples(style, *part);
@@ -181,22 +179,21 @@ fn fitted(style: &Style, together: &[Part], is_opposed: bool) -> Vec<Vec<Part>> 
     [half(0), half(1)].iter().flat_map(|half| fitted(style, half, is_opposed)).collect()
 }
 
-/// Points evenly spaced along a part.
+/// Evenly spaced.
 fn samples(style: &Style, part: Part) -> Vec<V2> {
     let line: &Polyline = &style.edge(part.edge).line;
     let share = |k: usize| k as f64 / (SAMPLES - 1) as f64;
     (0..SAMPLES).map(|k| line.at(part.arcs[0] + (part.arcs[1] - part.arcs[0]) * share(k))).collect()
 }
 
-/// A cubic Bezier curve fitted to a line.
+/// Cubic Bezier curve.
 struct CubicFit {
-    /// Inner control points.
     inner: [V2; 2],
-    /// Greatest distance from the points of the line, m.
+    /// Greatest distance from the line.
     error_m: f64,
 }
 
-/// Least-squares cubic Bezier curve between the ends of a line.
+/// Least-squares Bezier curve between the ends of a line.
 fn cubic(points: &[V2]) -> CubicFit {
     let (start, end) = (points[0], points[points.len() - 1]);
     let weights = |k: usize| {
@@ -220,7 +217,7 @@ fn cubic(points: &[V2]) -> CubicFit {
     CubicFit { inner, error_m: points.iter().enumerate().map(off).fold(0.0, f64::max) }
 }
 
-/// Panel of the parts of a piece, in the order of the outline. `left` is the present end of the row, m.
+/// Panel in the order of the outline. `left` is the present end of the row, m.
 fn panel(style: &Style, parts: &[Part], left: &mut f64) -> Panel {
     let starts: Vec<V2> = parts.iter().map(|part| style.edge(part.edge).line.at(part.arcs[0])).collect();
     let low = starts.iter().fold(f64::MAX, |low, p| low.min(p.x));

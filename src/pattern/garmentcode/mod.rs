@@ -30,53 +30,47 @@ use geom::units::mm;
 use geom::{V2, V3};
 use nalgebra::{Rotation3, Unit};
 
-/// Greatest coordinate and radius accepted, m.
+/// Limit of coordinates and radii.
 const GREATEST_M: f64 = 100.0;
 /// Flag of a stitch whose sides run in the same direction.
 const RIGHT_WRONG: &str = "right_wrong";
 
-/// Error of reading a GarmentCode specification.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}: {place}: found {found}; accepted: {accepted}")]
 pub struct GarmentCodeError {
-    /// Name of the file.
     pub file: String,
     /// Panel, edge or stitch.
     pub place: String,
-    /// Description of what was found.
     pub found: String,
-    /// Description of what is accepted.
     pub accepted: String,
 }
 
-/// Content of a specification.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Specification {
-    /// Name of the file, for messages.
     pub file: String,
-    /// Millimetres in one unit of the file.
     pub mm_per_unit: f64,
-    /// Panels as pieces seen from outside, in the order of their names. [`Piece::is_clockwise_in_file`] is true for
-    /// mirrored ones.
+    /// Panels seen from outside, in the order of their names. [`Piece::is_clockwise_in_file`] is true for mirrored
+    /// ones.
     pub pieces: Vec<Piece>,
-    /// Places of the pieces round the body.
+    /// Round the body, one for each piece.
     pub places: Vec<Place>,
     /// Edges of each piece, in the order of the file.
     pub edges: Vec<Vec<Polyline>>,
-    /// Stitches, in the order of the file.
+    /// In the order of the file.
     pub stitches: Vec<Stitch>,
 }
 
-/// Two edges that are sewn together: a dart if they belong to one panel.
+/// A dart if both edges belong to one panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stitch {
-    /// Both edges, in the order of the file.
+    /// In the order of the file.
     pub sides: [EdgeRef; 2],
     /// True if start meets start (`right_wrong`). Otherwise start meets end.
     pub same_direction: bool,
 }
 
-/// Reads a specification. `file` is its name for messages.
+/// Fails also where an edge or stitch refers to something missing, a loop is open, an outline crosses itself, or an
+/// edge is sewn twice.
 pub fn read(bytes: &[u8], file: &str) -> Result<Specification, GarmentCodeError> {
     let reader = Reader { file };
     let document: Document = serde_json::from_slice(unmarked(bytes)).map_err(|error| {
@@ -89,7 +83,6 @@ pub fn read(bytes: &[u8], file: &str) -> Result<Specification, GarmentCodeError>
     reader.specification(&document)
 }
 
-/// Reader with the file name for messages.
 struct Reader<'a> {
     file: &'a str,
 }
@@ -139,7 +132,7 @@ impl Reader<'_> {
         Ok(all)
     }
 
-    /// Panel as a piece seen from outside, and its edges.
+    /// Piece seen from outside, and its edges.
     fn panel(&self, name: &str, panel: &Panel, unit_m: f64) -> Result<(Piece, Vec<Polyline>), GarmentCodeError> {
         let place = format!("panel `{name}`");
         let vertices: Vec<V2> = panel.vertices.iter().map(|&[x, y]| V2::new(x, y) * unit_m).collect();
@@ -248,7 +241,6 @@ impl Reader<'_> {
     }
 }
 
-/// Place of a panel, drawn as this piece, round the body.
 fn place(panel: &Panel, unit_m: f64, piece: &Piece) -> Place {
     let low = piece.outline.iter().fold(V2::repeat(f64::MAX), |low, p| low.inf(p));
     let high = piece.outline.iter().fold(V2::repeat(f64::MIN), |high, p| high.sup(p));
@@ -266,7 +258,7 @@ fn place(panel: &Panel, unit_m: f64, piece: &Piece) -> Place {
     }
 }
 
-/// Circular arc from `start` to `end` with the turning angle `turn`, radians, positive to the left.
+/// Arc with the turning angle `turn`, radians, positive to the left.
 fn circle(start: V2, end: V2, radius: f64, turn: f64) -> Vec<V2> {
     let chord = end - start;
     let heading = chord.y.atan2(chord.x) - 0.5 * turn;
@@ -280,7 +272,7 @@ fn circle(start: V2, end: V2, radius: f64, turn: f64) -> Vec<V2> {
     points
 }
 
-/// Mirrors an edge, keeping its direction, so that a clockwise loop becomes counter-clockwise.
+/// Keeps the direction, so that a clockwise loop becomes counter-clockwise.
 fn mirrored(edge: &Polyline) -> Polyline {
     let points = edge.points().iter().map(|p| V2::new(-p.x, p.y)).collect();
     Polyline::new(points).expect("as many points as before")
@@ -301,7 +293,7 @@ fn piece(name: &str, edges: &[Polyline], is_clockwise_in_file: bool) -> Piece {
 }
 
 impl Specification {
-    /// Style of the panels, sewn by the stitches, without measurements.
+    /// Sewn by the stitches, without measurements.
     pub fn style(&self) -> Style {
         let edge = |(k, line): (usize, &Polyline)| Edge {
             name: Some(format!("e{k}")),

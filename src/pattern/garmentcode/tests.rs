@@ -7,7 +7,7 @@ use geom::units::from_mm;
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/patterns/garmentcode");
 
-/// Specifications beside the checkout, by garment. There are none without that folder.
+/// Reads a folder beside the checkout, by garment. Without the folder there are none.
 fn specifications() -> BTreeMap<String, Specification> {
     let mut all = BTreeMap::new();
     for folder in [FOLDER.to_owned(), format!("{FOLDER}/upstream")] {
@@ -81,7 +81,7 @@ fn specifications_become_styles_that_mesh() {
     }
 }
 
-/// Pieces and sewn lengths of a style, written and read again.
+/// Style written and read again.
 fn there_and_back(style: &Style) -> Specification {
     let bytes = serde_json::to_vec(&document(style)).expect("it is JSON");
     read(&bytes, "back_specification.json").unwrap_or_else(|error| panic!("{}: {error}", style.name))
@@ -144,7 +144,7 @@ fn divided_seams_keep_their_direction() {
     }
 }
 
-/// A square of 10 cm with one edge as given, sewn to its opposite.
+/// Square of 10 cm with one edge as given, sewn to its opposite.
 fn square(edge: &str, stitch: &str, units: &str) -> String {
     let edges =
         format!(r#"{{"endpoints":[0,1]{edge}}},{{"endpoints":[1,2]}},{{"endpoints":[2,3]}},{{"endpoints":[3,0]}}"#);

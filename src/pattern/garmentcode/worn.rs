@@ -9,9 +9,9 @@ use super::{Specification, Stitch};
 use crate::trade::{Class, Face, Hand, Named};
 use geom::{V2, V3};
 
-/// Distance from the middle plane between front and back from which a panel lies on one side, m.
+/// Distance from the middle plane from which a panel lies in front or at the back.
 const BEFORE_M: f64 = 0.02;
-/// Component of the normal along the front below which a panel is turned to the side, as a hood is.
+/// Component of the normal to the front below which a panel is turned to the side, as a hood is.
 const TURNED: f64 = 0.7;
 /// Distance of the middle from the plane of symmetry, over the width, up to which a panel covers both sides.
 const BOTH_SIDES: f64 = 0.1;
@@ -19,22 +19,21 @@ const BOTH_SIDES: f64 = 0.1;
 const BAND: f64 = 0.65;
 /// Distance of a seam above the middle, over the height, from which it is an upper edge.
 const UPPER: f64 = 0.25;
-/// Bounding box of a collar over that of the panel that it stands on: at most.
+/// Greatest bounding box of a collar over that of the panel that it stands on.
 const SMALLER: f64 = 0.6;
 
-/// Part of the body that a panel covers, by its label.
+/// Part of the body, by the label of a panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// `body`.
     Trunk,
-    /// `arm`.
     Arm,
-    /// `leg`: skirts, too.
+    /// `leg`, and skirts.
     Leg,
 }
 
 impl Part {
-    /// The part of a label; `None` for any other.
+    /// `None` for any label but those of parts.
     pub fn of_label(label: &str) -> Option<Self> {
         match label {
             "body" => Some(Self::Trunk),
@@ -45,18 +44,17 @@ impl Part {
     }
 }
 
-/// Place of a panel as the file gives it.
+/// As the file gives it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
-    /// Middle of its bounding box: to the wearer's left, up, to the front, m.
+    /// Of the bounding box: to the wearer's left, up, to the front, m.
     pub middle: V3,
-    /// Unit normal, in the same directions.
+    /// In the same directions.
     pub normal: V3,
     /// Middle of the bounding box in the plane of the piece, seen from outside, m.
     pub centre: V2,
-    /// Width and height of the bounding box, m.
+    /// Width and height, m.
     pub size: V2,
-    /// Part of the body that it covers.
     pub part: Option<Part>,
 }
 
@@ -84,17 +82,16 @@ impl Place {
     }
 }
 
-/// Statements about the panels: by name where the name says the kind, else by place.
+/// Statements by name where the name says the kind, else by place.
 pub fn told(specification: &Specification, named: &[Named]) -> Vec<Named> {
     let worn = Worn::new(specification, named);
     (0..named.len()).map(|panel| worn.told(panel)).collect()
 }
 
-/// Panels of a specification with their partners.
 struct Worn<'a> {
     named: &'a [Named],
     places: &'a [Place],
-    /// For each panel the partners that it is sewn to, with the places of its own seams from its middle, m.
+    /// Partners of each panel, with the places of its own seams from its middle, m.
     partners: Vec<BTreeMap<usize, Vec<V2>>>,
     legs: BTreeSet<usize>,
 }
@@ -124,7 +121,7 @@ impl<'a> Worn<'a> {
         Named { class: Some(class), face, hand: named.hand.or_else(|| place.hand()), ..named }
     }
 
-    /// Kind of a panel by its place; `None` where that does not tell.
+    /// `None` where the place does not tell.
     fn class(&self, panel: usize) -> Option<Class> {
         let is_sewn_to = |part: Part| self.partners[panel].keys().any(|&other| self.places[other].part == Some(part));
         match self.places[panel].part {
@@ -141,7 +138,7 @@ impl<'a> Worn<'a> {
         }
     }
 
-    /// True for front or back of a leg: sewn to its other half by both sides, and to the other leg.
+    /// Sewn to its other half by both sides, and to the other leg.
     fn is_leg(&self, panel: usize) -> bool {
         let place = &self.places[panel];
         let is_on_both_sides = |seams: &[V2]| seams.iter().any(|s| s.x < 0.0) && seams.iter().any(|s| s.x > 0.0);
@@ -159,8 +156,8 @@ impl<'a> Worn<'a> {
             && of(&|other, _| other.hand().is_some() && other.hand() != place.hand() && other.face() == place.face())
     }
 
-    /// True for front or back of a band round the waist. It covers both sides, is sewn to its other half at the sides
-    /// alone, and hangs from the trunk, or is low and something of the leg hangs from it.
+    /// True for a panel that covers both sides, is sewn to its other half at the sides alone, and hangs from the trunk,
+    /// or is low and something of the leg hangs from it.
     fn is_band(&self, panel: usize) -> bool {
         let place = &self.places[panel];
         let is_low = place.size.y < BAND * place.size.x;
@@ -175,7 +172,7 @@ impl<'a> Worn<'a> {
         place.hand().is_none() && !place.is_turned() && closing <= 2 && partners().any(|(other, _)| hangs(other))
     }
 
-    /// True for a collar or a hood: it is turned, or stands on a larger panel of the trunk and takes no limb.
+    /// True also for a hood: turned, or on a larger panel of the trunk and without a limb.
     fn is_collar(&self, panel: usize) -> bool {
         let place = &self.places[panel];
         let area = |place: &Place| place.size.x * place.size.y;
@@ -193,7 +190,7 @@ impl<'a> Worn<'a> {
         place.is_turned() || !takes_a_limb && partners.any(stands_on)
     }
 
-    /// True for a panel whose upper edge is sewn to the lower edge of a waistband: a skirt, whatever its name.
+    /// True for a skirt, whatever its name.
     fn hangs_from_a_waistband(&self, panel: usize) -> bool {
         let Named { face, hand, .. } = self.named[panel];
         let high = UPPER * self.places[panel].size.y;
@@ -205,7 +202,7 @@ impl<'a> Worn<'a> {
         face.is_some() && hand.is_none() && self.partners[panel].iter().any(hangs)
     }
 
-    /// True for a panel of a skirt of which some panels are turned to the side.
+    /// True for a skirt of which some panels are turned to the side.
     fn goes_round(&self, panel: usize) -> bool {
         let beside = self.partners[panel].keys().chain([&panel]);
         let mut skirts = beside.filter(|&&other| self.places[other].part == Some(Part::Leg));
@@ -218,8 +215,8 @@ mod tests {
     use crate::garment::Role;
     use crate::garmentcode;
 
-    /// A specification of rectangles: name, label, place (left, up, front), width and height, cm. Stitches are pairs of
-    /// (panel, edge); edges run from the lower left corner: 0 below, 1 right, 2 above, 3 left.
+    /// Rectangles: name, label, place (left, up, front), width and height, cm. Stitches are pairs of (panel, edge):
+    /// edge 0 below, 1 right, 2 above, 3 left.
     fn specification(panels: &[(&str, &str, [f64; 3], [f64; 2])], stitches: &[[(&str, usize); 2]]) -> Vec<u8> {
         let panel = |(name, label, at, [w, h]): &(&str, &str, [f64; 3], [f64; 2])| {
             let edges: Vec<String> = (0..4).map(|k| format!(r#"{{"endpoints":[{k},{}]}}"#, (k + 1) % 4)).collect();

@@ -6,66 +6,59 @@ use crate::style::corners::corner_vertices;
 use geom::V2;
 use geom::polyline::Polyline;
 
-/// Distance below which two cardinal points are one, m.
+/// Distance below which two cardinal points are one.
 const SAME_M: f64 = 0.1e-3;
-/// Turning angle from which a vertex of a line inside is a cardinal point, radians: as that of a corner of an outline.
+/// Turning angle from which a vertex inside is a cardinal point, as that of a corner of an outline.
 const BEND_RAD: f64 = 30.0 * std::f64::consts::PI / 180.0;
-/// Spacing of the places of a side at which its displacement is examined, m.
+/// Spacing of the places of a side at which its displacement is examined.
 const APART_M: f64 = 5e-3;
-/// Least distance of such a place from the ends of its side, m: nearer than that, the corner sets the width.
+/// Least distance of such a place from the ends of its side: nearer, the corner sets the width.
 const FROM_CORNER_M: f64 = 40e-3;
 
-/// Place of a cardinal point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// Point of the outline.
     Outline,
-    /// Point of the sew line inside the outline.
+    /// Inside the outline.
     SewLine,
-    /// Notch: it keeps its place on the outline.
+    /// Keeps its place on the outline.
     Notch,
-    /// End of the grain line: both ends move alike.
+    /// Both ends move alike.
     Grain,
-    /// Point of a line inside, or drill hole.
+    /// On a line inside, or drill hole.
     Inner,
 }
 
-/// A cardinal point.
+/// Point that takes a grade rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Cardinal {
-    /// Index of the piece.
     pub piece: usize,
-    /// Place of the sample size, m.
+    /// In the sample size, m.
     pub at: V2,
-    /// Kind of place.
     pub kind: Kind,
 }
 
 impl Cardinal {
-    /// True if the point lies on the line that is sewn.
     pub fn is_sewn(&self, piece: &Piece) -> bool {
         self.kind == if piece.sew_line.is_some() { Kind::SewLine } else { Kind::Outline }
     }
 }
 
-/// A side of an outline or sew line between two corners, with places along it.
+/// Part of an outline or sew line between two corners.
 pub(super) struct Side {
-    /// Index of the piece.
     pub piece: usize,
-    /// Line on which the side lies.
     pub kind: Kind,
-    /// Places from one corner to the other, both included, evenly spaced.
+    /// From one corner to the other, both included, evenly spaced.
     pub places: Vec<V2>,
-    /// Numbers of the places that are far enough from both corners.
+    /// Places that are far enough from both corners.
     pub inner: std::ops::Range<usize>,
 }
 
-/// Closed lines of a piece on which seams and cuts run.
+/// Closed lines, on which seams and cuts run.
 fn lines(piece: &Piece) -> impl Iterator<Item = (Kind, &Vec<V2>)> {
     [(Kind::Outline, &piece.outline)].into_iter().chain(piece.sew_line.as_ref().map(|line| (Kind::SewLine, line)))
 }
 
-/// Corners of a closed line of a piece, as vertices in their order along the line.
+/// Vertices in order along the line.
 fn corners(piece: &Piece, line: &[V2]) -> Vec<usize> {
     let alone = Piece {
         outline: line.to_vec(),
@@ -79,7 +72,6 @@ fn corners(piece: &Piece, line: &[V2]) -> Vec<usize> {
     corners
 }
 
-/// Cardinal points of a piece.
 pub(super) fn points(number: usize, piece: &Piece) -> Vec<Cardinal> {
     let mut all: Vec<Cardinal> = Vec::new();
     let mut mark = |at: V2, kind: Kind| {
@@ -103,7 +95,6 @@ pub(super) fn points(number: usize, piece: &Piece) -> Vec<Cardinal> {
     all
 }
 
-/// Sides of a piece between its corners.
 pub(super) fn sides(number: usize, piece: &Piece) -> Vec<Side> {
     let of_line = |(kind, line): (Kind, &Vec<V2>)| -> Vec<Side> {
         let corners = corners(piece, line);
@@ -122,7 +113,6 @@ pub(super) fn sides(number: usize, piece: &Piece) -> Vec<Side> {
     lines(piece).flat_map(of_line).collect()
 }
 
-/// Gives a closed line a vertex at a place on it.
 pub(super) fn with_vertex(line: &mut Vec<V2>, at: V2) {
     let n = line.len();
     let away = |k: &usize| geom::polyline::segment_distance(&line[*k], &line[(*k + 1) % n], &at);

@@ -20,16 +20,15 @@ use geom::V2;
 use geom::polyline::{segment_distance, self_crossing, signed_area};
 use geom::units::mm;
 
-/// Distance below which a grade point counts as on the outline, m.
+/// Distance below which a grade point counts as on the outline.
 const ON_OUTLINE_M: f64 = 1e-3;
-/// Least difference of two distances, and of two steps, that counts, m: half of the rounding of files.
+/// Least difference of two distances, or steps, that counts: half of the rounding of files.
 const NEARER_M: f64 = 0.05e-3;
 /// Greatest slope of a grade reference line that counts as horizontal.
 const HORIZONTAL: f64 = 0.02;
 
-/// Grades the pieces into all sizes of a table. Those of the sample size stay as drawn.
-///
-/// A piece that cannot be graded is listed in [`PatternFile::refused`].
+/// The sample size stays as drawn. A piece that cannot be graded is listed in [`PatternFile::refused`]. Fails where the
+/// file holds another size than the sample size, or no grade point.
 pub fn grade(file: &PatternFile, table: &GradeTable) -> Result<PatternFile, GradeError> {
     let fail = |found: String, accepted: &str| {
         Err(GradeError { file: file.file.clone(), line: None, found, accepted: accepted.to_owned() })
@@ -63,7 +62,6 @@ pub fn grade(file: &PatternFile, table: &GradeTable) -> Result<PatternFile, Grad
     Ok(graded)
 }
 
-/// Grades one piece into one size.
 fn graded_piece(piece: &Piece, table: &GradeTable, size: usize) -> Result<Piece, String> {
     let graded = moved_piece(piece, table, size)?;
     if let Some(place) = self_crossing(&graded.outline) {
@@ -75,7 +73,7 @@ fn graded_piece(piece: &Piece, table: &GradeTable, size: usize) -> Result<Piece,
     Ok(graded)
 }
 
-/// Moves the points of a piece into one size, whatever its outline becomes.
+/// Moves the points, whatever the outline becomes.
 fn moved_piece(piece: &Piece, table: &GradeTable, size: usize) -> Result<Piece, String> {
     if let Some([from, to]) = piece.grade_reference {
         let along = to - from;
@@ -114,22 +112,21 @@ fn moved_piece(piece: &Piece, table: &GradeTable, size: usize) -> Result<Piece, 
     })
 }
 
-/// A grade point inside a piece.
 struct InnerPoint {
     at: V2,
-    /// Displacement by the grade rule of the point, m.
+    /// Displacement by its rule, m.
     step: V2,
 }
 
-/// Displacement field of a piece: of the vertices of its outline, and of the inner points that have a grade rule.
+/// Displacements of the vertices of an outline, and of the inner points that have a grade rule.
 struct Field<'a> {
     outline: &'a [V2],
     steps: Vec<V2>,
-    /// Grade points inside the piece.
     own: Vec<InnerPoint>,
 }
 
 impl<'a> Field<'a> {
+    /// Fails where a rule is missing, two rules meet in one point, or fewer than two points are graded.
     fn of(piece: &'a Piece, table: &GradeTable, size: usize) -> Result<Self, String> {
         let outline = &piece.outline;
         let mut graded: Vec<Option<(u32, V2)>> = vec![None; outline.len()];
@@ -169,18 +166,18 @@ impl<'a> Field<'a> {
         Ok(Self { outline, steps: between(outline, &known), own })
     }
 
-    /// Displacement of an inner point: by its grade rule, otherwise that of the nearest point of the outline.
+    /// Takes its own rule, otherwise the nearest point of the outline.
     fn at_inner(&self, point: &V2) -> V2 {
         self.own(point).unwrap_or_else(|| self.at(point))
     }
 
-    /// Displacement of an inner point by its own grade rule.
+    /// By its own grade rule.
     fn own(&self, point: &V2) -> Option<V2> {
         let near = self.own.iter().filter(|own| (own.at - point).norm() < ON_OUTLINE_M);
         near.min_by(|a, b| (a.at - point).norm().total_cmp(&(b.at - point).norm())).map(|own| own.step)
     }
 
-    /// A line inside the piece, moved. Between two of its points that have rules it follows them as the outline does.
+    /// Moves a line inside. Between two of its points that have rules it follows them as the outline does.
     fn line(&self, points: &[V2], is_closed: bool) -> Vec<V2> {
         let own = points.iter().enumerate().filter_map(|(vertex, point)| Some((vertex, self.own(point)?)));
         let known: Vec<(usize, V2)> = own.collect();
@@ -208,12 +205,12 @@ impl<'a> Field<'a> {
     }
 }
 
-/// Points of lines, cut-outs and holes inside a piece.
+/// Points of lines, cut-outs and holes.
 fn inner_points(piece: &Piece) -> impl Iterator<Item = &V2> {
     piece.internal_lines.iter().chain(&piece.cut_outs).flatten().chain(&piece.drill_holes)
 }
 
-/// Displacements of all vertices of a closed outline, interpolated linearly in arc length between the known ones.
+/// Interpolates displacements of a closed outline linearly in arc length.
 fn between(outline: &[V2], known: &[(usize, V2)]) -> Vec<V2> {
     let n = outline.len();
     let mut steps = vec![V2::zeros(); n];

@@ -22,49 +22,38 @@ use crate::dxf::{D6673, Standard, Unit};
 use geom::V2;
 use geom::units::{from_mm, mm};
 
-/// Greatest size of a table, bytes. A large table has some hundred thousand.
+/// A large table has some hundred thousand.
 const MOST_BYTES: usize = 8 << 20;
-/// Greatest displacement by a rule, m.
+/// Greatest displacement by a rule.
 const GREATEST_M: f64 = 2.0;
-/// Greatest displacement of the sample size that counts as zero, m.
+/// Greatest displacement of the sample size that counts as zero.
 const ZERO_M: f64 = 1e-6;
 
-/// Number of pairs of x and y per written line.
+/// Pairs of x and y.
 const PAIRS_A_LINE: usize = 4;
 
-/// Error of reading or applying a grade rule table.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}{}: found {found}; accepted: {accepted}", line.map(|line| format!(", line {line}")).unwrap_or_default())]
 pub struct GradeError {
-    /// Name of the file.
     pub file: String,
-    /// Line number. `None` if the error has no line.
     pub line: Option<usize>,
-    /// Description of what was found.
     pub found: String,
-    /// Description of what is accepted.
     pub accepted: String,
 }
 
-/// A grade rule table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GradeTable {
-    /// Name of the file, for messages.
     pub file: String,
-    /// Names of the sizes, in the order of the table.
+    /// In the order of the table.
     pub sizes: Vec<String>,
     /// Index of the sample size.
     pub sample: usize,
-    /// Unit of the numbers in the file.
     pub unit: Unit,
-    /// Displacements by each rule relative to the sample size, m, one for each size.
+    /// Displacements relative to the sample size, m, one for each size.
     pub rules: BTreeMap<u32, Vec<V2>>,
 }
 
-/// Reads a grade rule table. `file` is its name for messages.
-///
-/// [`GradeError`] if the bytes are no such table or name no unit, the sizes do not agree, or a rule occurs twice, lacks
-/// a pair for a size, or moves the sample size.
+/// Fails also where the sizes do not agree, or a rule occurs twice, lacks a pair for a size, or moves the sample size.
 pub fn read(bytes: &[u8], file: &str) -> Result<GradeTable, GradeError> {
     let reader = Reader { file };
     if bytes.len() > MOST_BYTES {
@@ -110,29 +99,28 @@ pub fn read(bytes: &[u8], file: &str) -> Result<GradeTable, GradeError> {
     reader.table(head, rules)
 }
 
-/// Text by which a pattern file names its table, as `(key, value)`.
+/// As `(key, value)`.
 pub fn named_in_pattern(name: &str) -> (String, String) {
     ("Grade Rule Table".to_owned(), name.to_owned())
 }
 
-/// True for the key of a text that names the grade rule table.
 pub fn is_name_of_table(key: &str) -> bool {
     key.eq_ignore_ascii_case("grade rule table")
 }
 
-/// Imprint of pattern and table alike: who wrote them, with which program, and when.
+/// Writer, program and date, alike for pattern and table.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Imprint {
-    /// Texts as `(key, value)`, such as `Author`.
+    /// `(key, value)`, such as `Author`.
     texts: Vec<(String, String)>,
 }
 
-/// Keys of an imprint, in the order of genuine files.
+/// In the order of genuine files.
 const IMPRINT: [&str; 5] = ["Author", "Product", "Version", "Creation Date", "Creation Time"];
 
 impl Imprint {
-    /// Imprint of what Toile makes of a pattern file with some texts: its own name and version, and the date and time of
-    /// the pattern. The clock is not asked, so that the same pattern makes the same bytes.
+    /// Takes Toile's own name and version, and the date and time of the pattern. The clock is not asked, so that the
+    /// same pattern makes the same bytes.
     pub fn of(pattern: &[(String, String)]) -> Self {
         let text = |key: &&str| match *key {
             "Author" | "Product" => Some("Toile".to_owned()),
@@ -146,13 +134,13 @@ impl Imprint {
         Self { texts }
     }
 
-    /// Texts as `(key, value)`.
+    /// `(key, value)`.
     pub fn texts(&self) -> impl Iterator<Item = (String, String)> + '_ {
         self.texts.iter().cloned()
     }
 }
 
-/// Writes a table in millimetres by a standard. `name` is the name by which the pattern file refers to the table.
+/// Writes millimetres. `name` is the name by which the pattern file refers to the table.
 pub fn write(table: &GradeTable, name: &str, imprint: &Imprint, standard: Standard) -> String {
     let first = match standard {
         Standard::Aama => "ANSI/AAMA VERSION: 1.0.0",
@@ -211,14 +199,12 @@ impl Head {
     }
 }
 
-/// A rule as read.
 #[derive(Clone, Debug)]
 struct Rule {
     line: usize,
     numbers: Vec<f64>,
 }
 
-/// Reader with the file name for messages.
 struct Reader<'a> {
     file: &'a str,
 }
@@ -228,7 +214,7 @@ impl Reader<'_> {
         GradeError { file: self.file.to_owned(), line, found, accepted: accepted.to_owned() }
     }
 
-    /// Number of a rule, and the steps that follow it in the same line.
+    /// Number, and the steps that follow it in the same line.
     fn rule_number<'v>(&self, line: usize, value: &'v str) -> Result<(u32, &'v str), GradeError> {
         let split =
             |text: &'v str| text.trim_start().split_once(char::is_whitespace).unwrap_or((text.trim_start(), ""));
@@ -291,7 +277,7 @@ impl Reader<'_> {
         Ok(GradeTable { file: self.file.to_owned(), sizes, sample, unit, rules })
     }
 
-    /// Displacements by one rule, m.
+    /// In m.
     fn steps(&self, number: u32, rule: &Rule, scale: f64, sizes: usize, sample: usize) -> Result<Vec<V2>, GradeError> {
         if rule.numbers.len() != 2 * sizes {
             let found = format!("{} numbers in rule {number}", rule.numbers.len());
@@ -311,7 +297,7 @@ impl Reader<'_> {
     }
 }
 
-/// Refuses displacements that are too long for a garment.
+/// Refuses steps that are too long for a garment.
 pub(super) fn check_steps(file: &str, line: Option<usize>, number: u32, steps: &[V2]) -> Result<(), GradeError> {
     let Some(step) = steps.iter().find(|step| step.norm() > GREATEST_M) else { return Ok(()) };
     let found = format!("a step of {:.1} m in rule {number}", step.norm());

@@ -10,8 +10,8 @@ GRADE RULE TABLE: BLOUSE\r\nNUMBER OF SIZES: 3\r\nSIZE LIST: S M\r\n  L\r\nSAMPL
    -10.00,   -5.00      0.00,    0.00     10.00,    5.00\r\nRULE: DELTA 2\r\n 0.0, -5.0\r\n 0.0, 0.0\r\n 0.0, 5.0\r\n\
 RULE: DELTA 3\r\n0 0 0 0 0 0\r\nEND\r\n";
 
-/// A square of 100 mm, rule 3 at its lower corners, 1 at the upper right, 2 at the upper left; a vertex half way up each
-/// side has none.
+/// 100 mm: rule 3 at its lower corners, 1 at the upper right, 2 at the upper left; a vertex half way up each side has
+/// none.
 fn square() -> PatternFile {
     dxf::read(drawing().as_bytes(), "square.dxf", None).expect("it reads")
 }
@@ -169,8 +169,7 @@ fn what_is_ambiguous_is_refused() {
     assert!(grade(&file, &table()).expect_err("size").found.contains("size `XL`"));
 }
 
-/// Checks that the table made of the vertices of a nest gives the nest back. Sizes and pieces whose outlines all have
-/// equally many vertices are compared.
+/// Compares sizes and pieces whose outlines all have equally many vertices.
 #[test]
 fn a_nest_is_what_its_own_rules_make_of_its_sample_size() {
     const SIZES: [&str; 4] = ["34", "36", "38", "40"];
@@ -237,7 +236,7 @@ proptest::proptest! {
     }
 }
 
-/// Nest that the sample size and its table make, read again from the written files.
+/// Nest that the sample size and its table make, from the written files.
 fn regraded(nest: &PatternFile, sample: &str, standard: dxf::Standard) -> PatternFile {
     let Ungraded { pieces, table, .. } = ungrade(nest, sample).expect("one pattern");
     let written = dxf::write_pieces(&pieces, &[("Sample Size".to_owned(), sample.to_owned())], standard);
@@ -255,7 +254,7 @@ fn regraded(nest: &PatternFile, sample: &str, standard: dxf::Standard) -> Patter
     graded
 }
 
-/// Greatest distance of the vertices of one line from the other line, m.
+/// Greatest distance of the vertices from the line, m.
 fn away(vertices: &[V2], line: &[V2]) -> f64 {
     let sides = || (0..line.len()).map(|k| (line[k], line[(k + 1) % line.len()]));
     let nearest = |p: &V2| sides().map(|(a, b)| segment_distance(&a, &b, p)).fold(f64::INFINITY, f64::min);

@@ -14,23 +14,22 @@ use crate::style::nest_corners::in_sizes;
 use geom::V2;
 use geom::polyline::Polyline;
 
-/// Distance along a line below which vertices of two sizes correspond, m.
+/// Distance along a line below which vertices of two sizes correspond.
 const SAME_PLACE_M: f64 = 0.2e-3;
-/// Difference below which displacements share one rule, m: the last digit of a written table.
+/// Difference below which displacements share one rule: the last digit of a written table.
 const SAME_STEP_M: f64 = 1e-7;
 
-/// A nest converted into its sample size and grade rules.
+/// Nest as its sample size and grade rules.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ungraded {
-    /// Pieces of the sample size with grade points.
+    /// Sample size with grade points.
     pub pieces: Vec<Piece>,
-    /// Rules of all sizes.
     pub table: GradeTable,
-    /// Notes on features that get no rules because some size lacks them. They move with the outline.
+    /// Features that get no rules because some size lacks them. They move with the outline.
     pub notes: Vec<String>,
 }
 
-/// Converts a nest into its sample size with grade points and a grade rule table.
+/// Fails where a piece is missing or different in one size.
 pub fn ungrade(file: &PatternFile, sample: &str) -> Result<Ungraded, GradeError> {
     let fail = |found: String, accepted: &str| GradeError {
         file: file.file.clone(),
@@ -68,14 +67,14 @@ pub fn ungrade(file: &PatternFile, sample: &str) -> Result<Ungraded, GradeError>
     Ok(Ungraded { pieces, table, notes })
 }
 
-/// Rules in the order of their numbers.
+/// In the order of their numbers.
 struct Rules {
     sizes: usize,
     steps: Vec<Vec<V2>>,
 }
 
 impl Rules {
-    /// Number of the rule that moves a point of the sample size to its positions in all sizes.
+    /// Rule that moves a point of the sample size to its positions in all sizes.
     fn number(&mut self, places: &[V2], sample: usize) -> u32 {
         debug_assert_eq!(places.len(), self.sizes);
         let steps: Vec<V2> = places.iter().map(|place| place - places[sample]).collect();
@@ -89,7 +88,7 @@ impl Rules {
     }
 }
 
-/// The piece of the sample size with a grade point at every vertex.
+/// Sample size with a grade point at every vertex.
 fn graded(all: &[&Piece], sample: usize, rules: &mut Rules, notes: &mut Vec<String>) -> Result<Piece, String> {
     let mut piece = all[sample].clone();
     let outlines = ring(all, sample, |piece| piece.outline.clone())?;
@@ -144,7 +143,7 @@ fn graded(all: &[&Piece], sample: usize, rules: &mut Rules, notes: &mut Vec<Stri
     Ok(piece)
 }
 
-/// True if all sizes have equally many of a feature. Otherwise adds a note.
+/// True for equally many of a feature. Otherwise adds a note.
 fn is_in_all<T>(piece: &str, what: &str, all: &[Vec<T>], notes: &mut Vec<String>) -> bool {
     let is_same = all.iter().all(|sized| sized.len() == all[0].len());
     if !is_same {
@@ -153,8 +152,7 @@ fn is_in_all<T>(piece: &str, what: &str, all: &[Vec<T>], notes: &mut Vec<String>
     is_same
 }
 
-/// Closed line of each size, all with the same number of vertices, among them the corners of the sample size. `line_of`
-/// returns the line of a piece.
+/// Line of each size, all with the same number of vertices, among them the corners of the sample size.
 fn ring(all: &[&Piece], sample: usize, line_of: impl Fn(&Piece) -> Vec<V2>) -> Result<Vec<Vec<V2>>, String> {
     let pieces: Vec<Piece> =
         all.iter().map(|piece| Piece { outline: line_of(piece), sew_line: None, ..(*piece).clone() }).collect();
@@ -179,7 +177,7 @@ fn ring(all: &[&Piece], sample: usize, line_of: impl Fn(&Piece) -> Vec<V2>) -> R
     Ok(rings)
 }
 
-/// Open lines of all sizes, divided wherever a line of some size has a vertex, at the same share of the length.
+/// Divides open lines wherever that of some size has a vertex, at the same share of the length.
 fn cut_alike(lines: &[Vec<V2>]) -> Vec<Vec<V2>> {
     if lines.iter().all(|line| line.len() == lines[0].len()) {
         return lines.to_vec();

@@ -5,16 +5,15 @@ use super::super::dxf::Unit;
 use super::table::{GradeError, GradeTable, check_steps};
 use geom::units::{from_mm, mm};
 
-/// Least grade step between neighbouring sizes that some point of a garment makes, m. Sizes differ by an inch of girth
-/// or more, a quarter of which, 6 mm, moves each side seam.
+/// Least step between neighbouring sizes that some point makes. Sizes differ by an inch of girth or more, a quarter of
+/// which, 6 mm, moves each side seam.
 const LEAST_STEP_M: f64 = 0.004;
 
-/// Greatest grade step between neighbouring sizes, m. Letter sizes differ by up to 0.1 m of girth, and by less in
-/// length.
+/// Greatest step between neighbouring sizes. Letter sizes differ by up to 0.1 m of girth, and by less in length.
 const MOST_STEP_M: f64 = 0.1;
 
-/// Converts the table into the unit `given`. Without it, the unit is that of the table, or that of the pattern
-/// (`drawn`) if the unit of the table would make no plausible grade. Also returns a note for the user.
+/// Takes the unit `given`, else that of the table, or that of the pattern (`drawn`) if the table's would make no
+/// plausible grade. Also returns a note for the user. Fails where displacements become too long.
 pub fn in_unit_of(
     table: GradeTable,
     drawn: Unit,
@@ -63,13 +62,12 @@ pub fn in_unit_of(
     Ok((scaled(table, unit)?, note))
 }
 
-/// Longest step of a rule between neighbouring sizes, m.
+/// Longest step between neighbouring sizes.
 fn longest_step_m(table: &GradeTable) -> f64 {
     let steps = table.rules.values().flat_map(|steps| steps.windows(2).map(|pair| (pair[1] - pair[0]).norm()));
     steps.fold(0.0, f64::max)
 }
 
-/// Converts the numbers of the table to another unit.
 fn scaled(mut table: GradeTable, unit: Unit) -> Result<GradeTable, GradeError> {
     if unit == table.unit {
         return Ok(table);

@@ -11,7 +11,7 @@ use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef};
 use geom::V2;
 
-/// Armholes of one face, each with the horizontal unit vector out of its piece.
+/// With the horizontal unit vector out of the piece.
 fn armholes<'b>(body: &'b Body<'_>, face: Face) -> impl Iterator<Item = (&'b Armhole, V2)> {
     let is_own = move |side: &&Side, armhole: &Armhole| side.chain[0] == armhole.side[0];
     let own = body.armholes.iter().filter(move |armhole| part(body, armhole) == Part::Trunk(face));
@@ -22,7 +22,7 @@ fn part(body: &Body<'_>, armhole: &Armhole) -> Part {
     body.anatomy.parts[armhole.underarm.edge.piece]
 }
 
-/// Widens the front or back half-way up the armholes, each by the amount.
+/// Widens half-way up the armholes, each by the amount.
 pub fn width(body: &Body<'_>, face: Face) -> Option<Plan> {
     let mut plan = Plan::default();
     for (armhole, out) in armholes(body, face) {
@@ -36,8 +36,8 @@ pub fn width(body: &Body<'_>, face: Face) -> Option<Plan> {
     Some(plan)
 }
 
-/// Raises the back neckline: cut across the blades from the centre to the armhole and opened. The high points of the
-/// shoulder give way so that neckline and shoulder keep their lengths.
+/// Raises the back neckline, cut across the blades from centre to armhole and opened. The high points of the shoulder
+/// give way so that neckline and shoulder keep their lengths.
 pub fn upper_back(body: &Body<'_>) -> Option<Plan> {
     let (trunk, anatomy) = (body.trunk.as_ref()?, body.anatomy);
     let centres = neck_centres(body, Face::Back)?;
@@ -59,8 +59,8 @@ pub fn upper_back(body: &Body<'_>) -> Option<Plan> {
     (!trunk.shoulders.is_empty() && !neck.is_empty()).then_some(plan)
 }
 
-/// Length that the front gains in its middle for each unit of width. Cut to the bust point and on to the armhole, the
-/// front turns about a point there that lies about 100 mm above the bust point and 70 mm beside it [Armstrong10].
+/// Length that the front gains in its middle for each unit of width: it turns about a point about 100 mm above the bust
+/// point and 70 mm beside it [Armstrong10].
 const LENGTH_PER_WIDTH: f64 = 0.7;
 
 /// Widens the front alone at the chest, at each side, and lengthens its middle. Its armholes keep their lengths.
@@ -86,7 +86,7 @@ pub fn sway_back(body: &Body<'_>) -> Option<Plan> {
     waist_seam(body, Face::Back)
 }
 
-/// Lowers the waist seam of a bodice at the centre of one face. At the side seams it stays, and it keeps its length.
+/// The side seams stay, and the seam keeps its length.
 fn waist_seam(body: &Body<'_>, face: Face) -> Option<Plan> {
     let (trunk, anatomy) = (body.trunk.as_ref()?, body.anatomy);
     let is_face = |piece: usize| anatomy.parts[piece] == Part::Trunk(face);
@@ -106,7 +106,7 @@ fn waist_seam(body: &Body<'_>, face: Face) -> Option<Plan> {
     Some(plan)
 }
 
-/// Points of the lower edge of a face at its centre: one, or one on each half.
+/// Points of the lower edge: one, or one on each half.
 fn centres(body: &Body<'_>, face: Face, waist: &[EdgeRef]) -> Option<Vec<EdgePoint>> {
     let anatomy = body.anatomy;
     let necks = neck_centres(body, face)?;

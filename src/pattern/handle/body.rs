@@ -12,99 +12,91 @@ use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef, PathPart};
 use geom::V2;
 
-/// Distance below which two levels of a seam count as one, and a point counts as a corner, m.
+/// Distance below which two levels of a seam are one, and a point is a corner.
 pub const NEAR_M: f64 = 3e-3;
 
-/// Least distance of a waist from both ends of its side seam, m. A narrowest girth nearer to an end is the taper of
-/// that end, and no waist.
+/// Least distance of a waist from both ends of its side seam. A narrowest girth nearer to an end is the taper of that
+/// end.
 const WAIST_FROM_ENDS_M: f64 = 85e-3;
 
-/// Least length of the underarm seam below the bicep for the seam to bend there, m. In a shorter one, 10 mm of added
-/// width would make a corner.
+/// Least length of the underarm seam below the bicep for the seam to bend there. In a shorter one, 10 mm of added width
+/// would make a corner.
 const LEAST_BELOW_BICEP_M: f64 = 60e-3;
 
 /// Part of the garment that a side seam belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Limb {
-    /// Trunk: top, or bodice of a dress.
+    /// Top, or bodice of a dress.
     Trunk,
-    /// Skirt, alone or of a dress.
+    /// Alone or of a dress.
     Skirt,
-    /// Outseam of a leg.
+    /// Outseam.
     Outer(Hand),
-    /// Inseam of a leg.
+    /// Inseam.
     Inner(Hand),
 }
 
-/// Level on a side seam at which a girth handle acts.
+/// Where a girth handle acts on a side seam.
 #[derive(Clone, Copy, Debug)]
 pub struct Level {
-    /// Arc length from the upper end of the side, m.
+    /// Arc length from the upper end.
     pub at_m: f64,
-    /// Handle that moves the seam at this level.
     pub handle: Handle,
 }
 
-/// One side of a side seam, outseam or inseam, directed downwards.
+/// Side of a side seam, outseam or inseam, directed downwards.
 pub struct Side {
-    /// Part of the garment.
     pub limb: Limb,
-    /// Edges from top to bottom.
     pub chain: Chain,
-    /// Levels from top to bottom.
+    /// From top to bottom.
     pub levels: Vec<Level>,
-    /// Horizontal unit vector that points out of the piece.
+    /// Horizontal unit vector out of the piece.
     pub out: V2,
 }
 
-/// Front or back part of an armhole.
+/// Front or back part.
 pub struct Armhole {
-    /// Edges between shoulder point and underarm.
+    /// Between shoulder point and underarm.
     pub edges: Vec<EdgeRef>,
     /// Shoulder point. `None` if the garment has no shoulder seam there.
     pub tip: Option<EdgeEnd>,
-    /// Underarm point.
     pub underarm: EdgeEnd,
-    /// Edges of the side seam from the underarm downwards.
+    /// Side seam from the underarm downwards.
     pub side: Chain,
-    /// Half of the sleeve cap that is sewn here. `None` without a sleeve, or if the half cap is not one piece.
+    /// Half of the sleeve cap. `None` without a sleeve, or if it is not one piece.
     pub cap: Option<HalfCap>,
 }
 
-/// Half of a sleeve cap from the underarm to the shoulder point, and the underarm seam below it.
+/// Sleeve cap from the underarm to the shoulder point, and the underarm seam below it.
 pub struct HalfCap {
-    /// Index of the sleeve piece.
     pub piece: usize,
-    /// Corner at the underarm.
     pub underarm: EdgeEnd,
-    /// Parts of edges from the underarm to the top.
+    /// From the underarm to the top.
     pub spans: Vec<Span>,
-    /// Point of the cap that is sewn to the shoulder point.
+    /// Sewn to the shoulder point.
     pub top: EdgePoint,
     /// Underarm seam, directed downwards.
     pub seam: Chain,
-    /// Unit vector down the arm.
+    /// Unit vector along the arm.
     pub down: V2,
-    /// Unit vector across the arm that points out of the piece at the underarm.
+    /// Unit vector across the arm, out of the piece at the underarm.
     pub out: V2,
 }
 
-/// The parts of a garment that handles move.
+/// Parts of a garment that handles move.
 pub struct Body<'a> {
-    /// Seams and parts of the style.
     pub anatomy: &'a Anatomy<'a>,
-    /// Trunk. `None` for a garment without side seams between a front and a back.
+    /// `None` without side seams between a front and a back.
     pub trunk: Option<Trunk<'a>>,
-    /// Legs, the right one first. Empty without trousers.
+    /// Right one first. Empty without trousers.
     pub legs: Vec<Legs<'a>>,
     /// Both sides of all side seams, outseams and inseams.
     pub sides: Vec<Side>,
-    /// Armholes: front and back of one, then of the other.
+    /// Front and back of one, then of the other.
     pub armholes: Vec<Armhole>,
 }
 
 impl<'a> Body<'a> {
-    /// Finds the parts that handles move. `points` are the points of measure of the style.
     pub fn of(anatomy: &'a Anatomy<'a>, points: &[PointOfMeasure]) -> Self {
         let trunk = Trunk::of(anatomy);
         let legs: Vec<Legs<'a>> = Hand::BOTH.into_iter().filter_map(|hand| Legs::of(anatomy, hand)).collect();
@@ -113,8 +105,7 @@ impl<'a> Body<'a> {
         Self { anatomy, trunk, legs, sides, armholes }
     }
 
-    /// Darts, each as its two edges: neighbours in one piece that are sewn to each other. The first ends, and the
-    /// second begins, at the tip.
+    /// Edges of one piece that are sewn to each other. The first ends, and the second begins, at the tip.
     pub fn darts(&self) -> Vec<[EdgeRef; 2]> {
         let style = self.anatomy.style();
         let dart = |[a, b]: [EdgeRef; 2]| {
@@ -130,18 +121,16 @@ impl<'a> Body<'a> {
         seams.collect()
     }
 
-    /// All half caps.
     pub fn caps(&self) -> impl Iterator<Item = &HalfCap> {
         self.armholes.iter().filter_map(|armhole| armhole.cap.as_ref())
     }
 
-    /// End of an edge as an edge point.
     pub fn point(&self, end: EdgeEnd) -> EdgePoint {
         self.anatomy.point(end)
     }
 }
 
-/// Arc length along a chain, m, at which a line of a path ends on it. `None` if no line ends there.
+/// Arc length along a chain at which a line of a path ends, m. `None` if none does.
 pub fn met(anatomy: &Anatomy<'_>, chain: &Chain, path: &[PathPart]) -> Option<f64> {
     let mut before_m = 0.0;
     for &EdgeEnd { edge, is_last: is_forwards } in chain {
@@ -158,7 +147,7 @@ pub fn met(anatomy: &Anatomy<'_>, chain: &Chain, path: &[PathPart]) -> Option<f6
     None
 }
 
-/// Horizontal unit vector that points out of the piece on the side of a chain.
+/// Horizontal unit vector.
 fn out_of(anatomy: &Anatomy<'_>, chain: &Chain) -> V2 {
     let outline = anatomy.style().pieces[chain[0].edge.piece].outline();
     let (low, high) = outline.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p.x), high.max(p.x)));
@@ -214,7 +203,7 @@ fn sides(anatomy: &Anatomy<'_>, trunk: Option<&Trunk<'_>>, legs: &[Legs<'_>], po
     found
 }
 
-/// Both sides of each side seam of a skirt, front and back, directed downwards from its upper edge.
+/// Front and back, directed downwards from the upper edge.
 fn skirt_sides(anatomy: &Anatomy<'_>) -> Vec<[Chain; 2]> {
     let all = skirt::side_seams(anatomy);
     // A side seam sewn in parts begins at its uppermost part.
@@ -253,8 +242,7 @@ fn armholes(anatomy: &Anatomy<'_>, trunk: &Trunk<'_>) -> Vec<Armhole> {
     found
 }
 
-/// Half of the sleeve cap that is sewn to one part of an armhole. `None` without a sleeve, or if the half cap is not
-/// one piece.
+/// `None` without a sleeve, or if the half cap is not one piece.
 fn half_cap(anatomy: &Anatomy<'_>, armhole: &[EdgeRef], tip: EdgeEnd, underarm: EdgeEnd) -> Option<HalfCap> {
     let style = anatomy.style();
     // The partner is looked up a little inside the armhole: beyond its ends, another piece may be sewn on.
@@ -291,7 +279,7 @@ fn half_cap(anatomy: &Anatomy<'_>, armhole: &[EdgeRef], tip: EdgeEnd, underarm: 
     Some(HalfCap { piece, underarm: corner, spans, top, seam, down, out: across * -inwards.signum() })
 }
 
-/// Upper end of the cap that begins at an underarm corner: the end of the last edge sewn to the trunk.
+/// Upper end of the cap: the end of the last edge sewn to the trunk.
 fn cap_end(anatomy: &Anatomy<'_>, corner: EdgeEnd) -> Option<EdgeEnd> {
     let is_cap = |edge: EdgeRef| {
         anatomy.ways.partners(edge).iter().any(|other| matches!(anatomy.parts[other.piece], Part::Trunk(_)))
@@ -307,7 +295,7 @@ fn cap_end(anatomy: &Anatomy<'_>, corner: EdgeEnd) -> Option<EdgeEnd> {
     None
 }
 
-/// Parts of the outline from an end of an edge to a point. `None` if the point is not on the piece.
+/// `None` if the point is not on the piece.
 fn spans(anatomy: &Anatomy<'_>, from: EdgeEnd, to: EdgePoint) -> Option<Vec<Span>> {
     let mut found = Vec::new();
     let EdgeEnd { mut edge, mut is_last } = from;
@@ -323,7 +311,7 @@ fn spans(anatomy: &Anatomy<'_>, from: EdgeEnd, to: EdgePoint) -> Option<Vec<Span
     None
 }
 
-/// Chain of edges from an end of an edge onwards that are sewn within their own sleeve. `None` if the first is not.
+/// Edges from `from` onwards that are sewn within their own sleeve. `None` if the first is not.
 fn own_seam(anatomy: &Anatomy<'_>, from: EdgeEnd) -> Option<Chain> {
     let part = anatomy.parts[from.edge.piece];
     let is_own = |edge: EdgeRef| {
@@ -345,15 +333,14 @@ impl HalfCap {
         self.seam.iter().map(|step| anatomy.length_m(&[step.edge])).sum()
     }
 
-    /// Point of the underarm seam at the bicep level. `None` for a short sleeve, whose underarm seam stays straight.
+    /// Point of the underarm seam. `None` for a short sleeve, whose underarm seam stays straight.
     pub fn bicep(&self, anatomy: &Anatomy<'_>) -> Option<EdgePoint> {
         let is_long = self.seam_m(anatomy) > BELOW_ARMHOLE_M + LEAST_BELOW_BICEP_M;
         is_long.then(|| anatomy.along(&self.seam, BELOW_ARMHOLE_M)).flatten()
     }
 
-    /// Ratio of the displacement of the underarm point to that of the bicep: 1 where the underarm seam bends, otherwise
-    /// L / (L - b) for a seam of length L with the bicep at b from the top. `None` for a sleeve that ends above the
-    /// bicep.
+    /// Displacement of the underarm point over that of the bicep: 1 where the underarm seam bends, else L / (L - b) for
+    /// a seam of length L with the bicep at b from the top. `None` for a sleeve that ends above the bicep.
     pub fn widening(&self, anatomy: &Anatomy<'_>) -> Option<f64> {
         let seam_m = self.seam_m(anatomy);
         match self.bicep(anatomy) {

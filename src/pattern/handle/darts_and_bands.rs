@@ -10,7 +10,7 @@ use crate::style::EdgeRef;
 use crate::style::openings::EdgeEnd;
 use geom::V2;
 
-/// Distance along a band below which two of its corners count as the same end, m.
+/// Distance along a band below which two of its corners are one end.
 const END_M: f64 = 20e-3;
 
 /// Drives the tips of darts by the mean displacement of their mouths, and lets them give way so that both edges stay

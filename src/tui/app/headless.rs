@@ -33,7 +33,6 @@ impl io::Write for Counter {
     }
 }
 
-/// A workbench on a database that draws to memory.
 pub struct Headless {
     store: Store,
     app: App,

@@ -46,7 +46,6 @@ pub enum Action {
     Unmark,
     NextLevel,
     PreviousLevel,
-    /// Finds the alteration of a size that makes it fit.
     Alter,
     DrapeChange,
     WriteChange,
@@ -87,7 +86,6 @@ pub enum Action {
     /// Opens the selected seam.
     RemoveSeam,
     FlipSeam,
-    /// Asks the open questions about the seams.
     Decide,
     /// Drapes the selected size on the chosen subject.
     TryOn,

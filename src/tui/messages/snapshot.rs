@@ -17,13 +17,9 @@ use wardrobe::{FabricRow, SizeRow, SubjectRow};
 /// Study, garment and jobs that screens show. Where one is `None` or gone, reading the database chooses one.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Focus {
-    /// Name of the study.
     pub study: Option<String>,
-    /// Name of the garment within the study.
     pub garment: Option<String>,
-    /// Job whose details are shown.
     pub job: Option<JobId>,
-    /// Jobs to compare.
     pub compare: Vec<JobId>,
     /// Subject on whom the fit of the garment is shown.
     pub wearer: Option<String>,
@@ -32,44 +28,36 @@ pub struct Focus {
 /// Place of a cell in the grid: indices of size, simulator and subject.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Place {
-    /// Row of the size, from 0.
     pub size: usize,
     /// Index among the simulators that have jobs.
     pub simulator: usize,
-    /// Column of the subject, from 0.
     pub subject: usize,
 }
 
 /// Everything the screens show of the database at one moment.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
-    /// Time of the reading, ms since 1970 (UTC).
+    /// Time of the reading, since 1970 (UTC).
     pub now_ms: i64,
-    /// Offset of the machine's local time from UTC at that time, ms.
+    /// Offset of the machine's local time from UTC at that time.
     pub offset_ms: i64,
     /// The subjects of the catalogue, by name.
     pub subjects: Vec<SubjectRow>,
     /// The fabrics of the catalogue, by name.
     pub fabrics: Vec<FabricRow>,
-    /// Sizes of the styles of the catalogue.
     pub sizes: Vec<SizeRow>,
-    /// Outfits of all studies.
     pub outfits: Vec<OutfitRow>,
     /// All studies of the database, by name.
     pub studies: Vec<StudyRow>,
     /// Index of the shown study in `studies`.
     pub study: usize,
-    /// Processes that run jobs of the shown study.
     pub runners: Vec<Runner>,
     /// Fabric of each garment of the shown study, by name.
     pub cloths: BTreeMap<String, String>,
-    /// Shown garment as a grid; `None` without a study.
+    /// Shown garment; `None` without a study.
     pub grid: Option<Grid>,
-    /// Current jobs of the study.
     pub jobs: Vec<JobRow>,
-    /// Ease of all sizes on all subjects of the study.
     pub ease: Vec<EaseRow>,
-    /// Details of the shown job.
     pub detail: Option<Detail>,
     /// Jobs that are compared, without those that are gone.
     pub compared: Vec<Compared>,
@@ -84,37 +72,35 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
-    /// Shown study; `None` for a database without studies.
+    /// Returns `None` for a database without studies.
     pub fn study(&self) -> Option<&StudyRow> {
         self.studies.get(self.study)
     }
 
-    /// A job by its number.
     pub fn job(&self, id: JobId) -> Option<&JobRow> {
         self.jobs.iter().find(|job| job.id == id)
     }
 
-    /// Jobs by their numbers, without those that are gone.
+    /// Leaves out jobs that are gone.
     pub fn jobs_of<'i>(&self, ids: impl Iterator<Item = &'i JobId>) -> Vec<&JobRow> {
         ids.filter_map(|id| self.job(*id)).collect()
     }
 
-    /// Shown grid; `None` where it has no size or no subject.
+    /// Returns `None` where the grid has no size or no subject.
     pub fn grid(&self) -> Option<&Grid> {
         self.grid.as_ref().filter(|grid| !grid.sizes.is_empty() && !grid.subjects.is_empty())
     }
 
-    /// Cell at a place of the grid.
     pub fn cell_at(&self, place: Place) -> Option<&Cell> {
         self.grid()?.cells.get(place.size)?.get(place.subject)?.get(place.simulator)
     }
 
-    /// Fit at a place of the grid; `None` where the ease is not known.
+    /// Returns `None` where the ease is not known.
     pub fn fit_at(&self, place: Place) -> Option<FitCell> {
         *self.grid()?.fits.get(place.size)?.get(place.subject)?
     }
 
-    /// Place of a job in the grid; `None` for a job of another garment.
+    /// Returns `None` for a job of another garment.
     pub fn place_of(&self, id: JobId) -> Option<Place> {
         let grid = self.grid()?;
         let job = self.job(id).filter(|job| job.garment == grid.garment)?;
@@ -145,34 +131,27 @@ impl Snapshot {
     }
 }
 
-/// Stored results, steps and log of one job.
 #[derive(Clone, Debug)]
 pub struct Detail {
-    /// Number of the job.
     pub job: JobId,
     /// Measurements of all stages.
     pub chi: Vec<ChiRow>,
-    /// Metrics of the result; `None` without a result.
+    /// Metrics; `None` without a result.
     pub metrics: Option<MetricsRow>,
-    /// Steps of the simulation.
     pub history: Vec<Step>,
-    /// Log of the job, the oldest line first.
+    /// Log, the oldest line first.
     pub log: Vec<LogLine>,
-    /// Reason why the job ran, or need not run.
     pub why: Why,
     /// Stages of the job, each made or from the cache.
     pub stages: Vec<StageRow>,
 }
 
-/// A job in a comparison.
 #[derive(Clone, Debug)]
 pub struct Compared {
-    /// The job as lists show it.
     pub job: JobRow,
     /// Measurements of all stages.
     pub chi: Vec<ChiRow>,
-    /// Metrics of the result; `None` without a result.
+    /// Metrics; `None` without a result.
     pub metrics: Option<MetricsRow>,
-    /// Inputs of the job.
     pub inputs: Inputs,
 }

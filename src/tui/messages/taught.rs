@@ -70,7 +70,6 @@ fn of_command(command: &Command) -> Option<String> {
     })
 }
 
-/// A fitting as words of a command line.
 fn fitting(of: &FittingOf) -> String {
     format!(" {} --garment {} --subject {}", word(&of.study), word(&of.garment), word(&of.subject))
 }
@@ -107,7 +106,6 @@ fn comment(of: &FittingOf, deed: &CommentDeed) -> String {
     }
 }
 
-/// Numbers of jobs as words of a command line.
 fn numbers(jobs: &[JobId]) -> String {
     jobs.iter().map(|job| format!(" {job}")).collect()
 }

@@ -15,12 +15,9 @@ use crate::widgets::text::{self, left};
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::in_list;
 
-/// A row of the list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Row<'a> {
-    /// An action with its keys.
     Action(&'static Binding),
-    /// A study or entry to go to.
     Thing(&'a Thing),
 }
 
@@ -32,34 +29,25 @@ const MOST: u16 = 40;
 enum Reach {
     /// On the present screen, but not on all.
     Here,
-    /// On every screen.
     Everywhere,
-    /// On other screens.
     Elsewhere,
 }
 
-/// A list of actions and things, narrowed by a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct List {
-    /// All actions with their keys.
     pub bindings: &'static [Binding],
-    /// Present screen.
     pub screen: Screen,
-    /// Studies and entries to go to.
     pub things: Vec<Thing>,
-    /// Text as typed.
     pub text: String,
-    /// Index of the selected row among those shown.
+    /// Index among the rows shown.
     pub row: usize,
 }
 
 impl List {
-    /// All actions of a table of keys, for a screen.
     pub fn of(bindings: &'static [Binding], screen: Screen) -> Self {
         Self { bindings, screen, things: vec![], text: String::new(), row: 0 }
     }
 
-    /// Adds studies and entries to go to.
     pub fn and(self, things: Vec<Thing>) -> Self {
         Self { things, ..self }
     }
@@ -86,7 +74,6 @@ impl List {
         named.into_iter().map(Row::Action).chain(things).chain(others.into_iter().map(Row::Action)).collect()
     }
 
-    /// Screens on which an action can be done.
     fn reach(&self, binding: &Binding) -> Reach {
         match binding.is_on(self.screen) {
             true if binding.screens.is_empty() => Reach::Everywhere,
@@ -110,7 +97,6 @@ impl List {
         })
     }
 
-    /// Handles a key: edits the text or moves among the rows.
     pub fn edit(&mut self, event: &KeyEvent) {
         let rows = self.rows().len();
         in_list(&mut self.text, &mut self.row, rows, event);
@@ -118,7 +104,6 @@ impl List {
     }
 }
 
-/// Draws the list above a screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, title: &str, list: &List, theme: Theme) {
     let rows = list.rows();
     // Lines: index of a row and its text, or a heading, which has no row.

@@ -15,17 +15,15 @@ use crate::widgets::text::wrapped;
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::moved;
 
-/// The log, with a selected line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CommandLog {
     /// Commands, the latest last.
     pub commands: Vec<String>,
-    /// Index of the selected line.
     pub row: usize,
 }
 
 impl CommandLog {
-    /// Log of some commands, the latest selected.
+    /// Selects the latest command.
     pub fn of(commands: &[String]) -> Self {
         Self { commands: commands.to_vec(), row: commands.len().saturating_sub(1) }
     }
@@ -44,7 +42,7 @@ impl CommandLog {
     }
 }
 
-/// Draws the log above a screen, each command in full.
+/// Draws each command in full.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, log: &CommandLog, theme: Theme) {
     let place = middle(area, area.width.min(120), area.height);
     let block = pane(theme, "what was done here, as commands".to_owned(), true)

@@ -16,22 +16,17 @@ use crate::widgets::theme::Theme;
 use crate::widgets::typing::edit;
 use store::comments::{Comment, Edit, Remark, Severity, Side, State};
 
-/// A line of the form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Field {
     /// Side from which the comment is seen, chosen.
     Side,
-    /// Place on the garment.
     Place,
-    /// Weight, chosen.
     Severity,
     /// Finding in words.
     Said,
-    /// Action to take.
     Action,
     /// Name of who is to act.
     Owner,
-    /// State, chosen.
     Status,
 }
 
@@ -42,7 +37,6 @@ const KNOWN: [Field; 5] = [Field::Severity, Field::Said, Field::Action, Field::O
 const LABEL: usize = 10;
 
 impl Field {
-    /// Name of the line.
     pub fn label(self) -> &'static str {
         match self {
             Self::Side => "side",
@@ -77,10 +71,8 @@ impl Field {
     }
 }
 
-/// A comment, as typed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CommentForm {
-    /// Fitting of the comment.
     pub of: FittingOf,
     /// Comment as it is; `None` for a new one.
     pub known: Option<Comment>,
@@ -88,19 +80,16 @@ pub struct CommentForm {
     pub lines: Vec<(Field, String)>,
     /// Index of the line that is edited.
     pub at: usize,
-    /// Progress of saving the comment.
     pub sending: Sending,
 }
 
 impl CommentForm {
-    /// The form of a new comment.
     pub fn new(of: FittingOf) -> Self {
         let text = |field: Field| field.choices().first().map_or(String::new(), |first| (*first).to_owned());
         let lines = NEW.map(|field| (field, text(field))).to_vec();
         Self { of, known: None, lines, at: 0, sending: Sending::default() }
     }
 
-    /// The form of a known comment.
     pub fn of(of: FittingOf, comment: &Comment) -> Self {
         let lines = KNOWN.map(|field| (field, value(comment, field))).to_vec();
         Self { of, known: Some(comment.clone()), lines, at: 0, sending: Sending::default() }
@@ -111,7 +100,6 @@ impl CommentForm {
         self.lines.iter().find(|(other, _)| *other == field).map_or("", |(_, text)| text.trim())
     }
 
-    /// Handles a key.
     pub fn key(&mut self, event: &KeyEvent) -> Outcome {
         if self.sending.is_busy {
             return Outcome::Open;
@@ -133,7 +121,6 @@ impl CommentForm {
         Outcome::Open
     }
 
-    /// Chooses the next or previous value of the line.
     fn choose(&mut self, step: isize) {
         let (field, text) = &mut self.lines[self.at];
         let choices = field.choices();
@@ -189,7 +176,6 @@ impl CommentForm {
     }
 }
 
-/// Value of a comment as text.
 fn value(comment: &Comment, field: Field) -> String {
     let remark = &comment.remark;
     match field {
@@ -204,7 +190,6 @@ fn value(comment: &Comment, field: Field) -> String {
     .to_owned()
 }
 
-/// Draws the form.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &CommentForm, theme: Theme) {
     let columns = usize::from(area.width.min(100).saturating_sub(2));
     let line = |(k, (field, text)): (usize, &(Field, String))| {

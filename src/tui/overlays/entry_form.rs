@@ -28,25 +28,19 @@ const FAR: f64 = 3.0;
 /// Columns for a value.
 const VALUE: usize = 12;
 
-/// Note beside a value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Note {
-    /// The value needs no remark.
     None,
     /// Percentile among adults of the sex, or range among the fabrics of the catalogue.
     Place(String),
     /// The value is possible but rare.
     Doubt(String),
-    /// The value is not accepted.
     Problem(String),
 }
 
-/// The values of a subject or a fabric, as typed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Form {
-    /// Part of the catalogue: a subject or a fabric.
     pub part: Part,
-    /// Mode of saving: a new entry, or other values of a known one.
     pub mode: Mode,
     /// Name of the entry whose values a new one starts with.
     pub like: Option<String>,
@@ -58,7 +52,6 @@ pub struct Form {
     pub at: usize,
     /// True once saving was tried: then empty lines show their problems too.
     is_tried: bool,
-    /// Progress of saving the entry.
     pub sending: Sending,
 }
 
@@ -68,14 +61,12 @@ impl Form {
         Self { part, mode, like: None, texts, known: vec![], at, is_tried: false, sending: Sending::default() }
     }
 
-    /// The form of a new subject.
     pub fn new_subject() -> Self {
         let mut texts = vec![String::new(); FIRST_NUMBER + MEASUREMENTS.len()];
         texts[WORD] = "female".to_owned();
         Self::new(Part::Subject, Mode::Add, texts)
     }
 
-    /// The form for editing a subject.
     pub fn of_subject(subject: &SubjectRow) -> Self {
         let value = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
         let mut texts = vec![subject.name.clone(), text::sex(subject).to_owned()];
@@ -102,7 +93,6 @@ impl Form {
         Self { like: is_new.then(|| fabric.name.clone()), known, ..Self::new(Part::Fabric, mode, texts) }
     }
 
-    /// Name of the entry.
     pub fn name(&self) -> &str {
         self.texts[NAME].trim()
     }
@@ -112,7 +102,6 @@ impl Form {
         line != NAME || self.mode == Mode::Add
     }
 
-    /// True if a line holds a number.
     pub fn is_number(line: usize) -> bool {
         line >= FIRST_NUMBER
     }
@@ -126,7 +115,6 @@ impl Form {
         }
     }
 
-    /// Name of a line.
     pub fn label(&self, line: usize) -> &'static str {
         match line {
             NAME => "name",
@@ -136,12 +124,10 @@ impl Form {
         }
     }
 
-    /// Unit of a line's number.
     pub fn unit(&self, line: usize) -> &'static str {
         if Self::is_number(line) { unit_of(self.number(line).0) } else { "" }
     }
 
-    /// Note beside a line.
     pub fn note(&self, line: usize) -> Note {
         let text = self.texts[line].as_str();
         if text.trim().is_empty() && !self.is_tried {
@@ -158,7 +144,6 @@ impl Form {
         noted.unwrap_or_else(Note::Problem)
     }
 
-    /// Note on the percentile of a measurement among adults.
     fn subject_note(&self, k: usize, text: &str) -> Result<Note, String> {
         let field = &MEASUREMENTS[k];
         let stands = |value: f64| percentile(self.sex()?, field.key, value);
@@ -171,7 +156,7 @@ impl Form {
         })
     }
 
-    /// Note on the range of a number among the fabrics of the catalogue. A number far outside may be in another unit.
+    /// Note on the range among the fabrics of the catalogue. A number far outside may be in another unit.
     fn fabric_note(&self, k: usize, text: &str) -> Result<Note, String> {
         let value = FABRIC_NUMBERS[k].read(text)?;
         let Some((value, [low, high])) =
@@ -188,7 +173,6 @@ impl Form {
         sex(&self.texts[WORD]).ok()
     }
 
-    /// Handles a key.
     pub fn key(&mut self, event: &KeyEvent) -> Outcome {
         if self.sending.is_busy {
             return Outcome::Open;
@@ -253,7 +237,6 @@ pub fn unit_of(key: &str) -> &'static str {
     UNITS.iter().find(|(end, _)| key.ends_with(end)).map_or("", |(_, unit)| *unit)
 }
 
-/// Draws the form.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &Form, theme: Theme) {
     let title = match form.mode {
         Mode::Edit => format!("edit {}: a new revision, results keep theirs", form.name()),
@@ -280,7 +263,6 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &Form, theme: Theme) {
     draw_frame(frame, area, width, title, keys, lines, theme);
 }
 
-/// Line of the form: name, value, note.
 pub fn line(form: &Form, k: usize, columns: usize, theme: Theme) -> Line<'static> {
     let is_focused = k == form.at && !form.sending.is_busy;
     let mark = if is_focused { "▸" } else { " " };

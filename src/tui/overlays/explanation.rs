@@ -29,13 +29,11 @@ pub struct Selected {
 }
 
 impl Selected {
-    /// Makes the selection from its description, the names of its quantities, and the headings of its screen.
     pub fn new(what: String, names: &[&str], headings: &[&str]) -> Self {
         Self { what, names: names.iter().chain(headings).map(|name| (*name).to_owned()).collect() }
     }
 }
 
-/// A list of terms, narrowed by a text, with one term explained.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Explanation {
     what: String,
@@ -45,7 +43,7 @@ pub struct Explanation {
 }
 
 impl Explanation {
-    /// Explanation of a selection, whose terms come first.
+    /// Puts the terms of the selection first.
     pub fn of(selected: Selected) -> Self {
         let mut terms: Vec<&Term> = vec![];
         for next in selected.names.iter().filter_map(|name| term(name)).chain(TERMS.iter()) {
@@ -64,7 +62,6 @@ impl Explanation {
         rows
     }
 
-    /// Handles a key: moves among the terms or narrows them.
     pub fn key(&mut self, event: &KeyEvent) {
         let rows = self.rows().len();
         in_list(&mut self.text, &mut self.row, rows, event);
@@ -72,7 +69,6 @@ impl Explanation {
     }
 }
 
-/// Draws the explanation above a screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, explanation: &Explanation, theme: Theme) {
     let place = middle(area, area.width.min(100), area.height.min(24));
     let title = format!("what is this: /{}▏", explanation.text);
@@ -99,7 +95,6 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, explanation: &Explanation, theme:
     frame.render_widget(Paragraph::new(told), words);
 }
 
-/// Lines that explain a term.
 fn told(term: &Term, theme: Theme, columns: usize) -> Vec<Line<'static>> {
     let unit = match term.unit.as_str() {
         "" => String::new(),

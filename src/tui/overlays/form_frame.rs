@@ -11,27 +11,22 @@ use crate::widgets::lists::pane;
 use crate::widgets::text::{shortened, wrapped};
 use crate::widgets::theme::Theme;
 
-/// State of sending a form.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sending {
-    /// True while the form waits for an answer.
     pub is_busy: bool,
     /// Reason for a refusal, or problem of a line.
     pub problem: Option<String>,
 }
 
 impl Sending {
-    /// Notes that the form was sent.
     pub fn start(&mut self) {
         *self = Self { is_busy: true, problem: None };
     }
 
-    /// Notes that the form was refused.
     pub fn refuse(&mut self, problem: String) {
         *self = Self { is_busy: false, problem: Some(problem) };
     }
 
-    /// Lines below a form: the work in progress, and the problem.
     pub fn lines(&self, work: &str, columns: usize, theme: Theme) -> Vec<Line<'static>> {
         let busy = self.is_busy.then(|| Line::styled(format!(" {work}"), theme.busy()));
         let problem = wrapped(self.problem.as_deref().unwrap_or_default(), columns.saturating_sub(3));
@@ -51,7 +46,6 @@ pub fn is_done(event: &KeyEvent, is_last: bool) -> bool {
     }
 }
 
-/// Draws a form: title, lines, and legend of the keys.
 pub fn draw_frame(
     frame: &mut Frame<'_>,
     area: Rect,

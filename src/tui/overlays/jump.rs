@@ -9,12 +9,9 @@ use crate::overlays::outcome::Outcome;
 use crate::widgets::jump::{Target, label};
 use crate::widgets::theme::Theme;
 
-/// Places on the screen, and the part of a label that was typed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Jump {
-    /// Places; each has a label of letters.
     pub targets: Vec<Target>,
-    /// Letters as typed.
     pub typed: String,
 }
 

@@ -40,57 +40,38 @@ use crate::widgets::text::wrapped;
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::{edit, is_ctrl_c};
 
-/// A list, form or question that is open.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Overlay {
-    /// The list of keys.
     Help(List),
-    /// The list of actions.
     Palette(List),
-    /// The explanation of the numbers of the screen.
     Explanation(Explanation),
-    /// Letters on the places to go to.
     Jump(Jump),
     /// Line of the filter, with the filter to restore on Esc.
     Filter(String),
     /// Values of a subject or fabric.
     Form(Box<Form>),
-    /// Path or name that is typed.
     Path(PathPrompt),
-    /// The files of a style.
     StyleForm(Box<StyleForm>),
-    /// A comment of a fitting.
     CommentForm(Box<CommentForm>),
-    /// The parts of a new study.
     StudyForm(Box<StudyForm>),
-    /// The list of saved queries.
     Queries(QueryList),
-    /// The log of commands.
     Commands(CommandLog),
-    /// The tour of the workbench, at a step.
     Tour(Tour),
-    /// A question with its answers.
     Question {
-        /// Text of the question.
         text: String,
-        /// Answers, each with its key.
         answers: Vec<Answer>,
     },
 }
 
-/// An answer to a question.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
     /// Key that gives the answer, in lower or upper case.
     pub key: char,
-    /// Label of the answer.
     pub label: &'static str,
-    /// Effects of the answer.
     pub effects: Vec<Effect>,
 }
 
 impl Overlay {
-    /// Draws the overlay above a screen.
     pub fn draw(&self, frame: &mut Frame<'_>, area: Rect, theme: Theme) {
         match self {
             Self::Help(list) => {

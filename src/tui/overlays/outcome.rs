@@ -5,12 +5,9 @@ use crate::messages::effect::Effect;
 use crate::overlays::things::Thing;
 use crate::widgets::jump::Goal;
 
-/// Outcome of a key for an overlay.
 #[derive(Debug, PartialEq)]
 pub enum Outcome {
-    /// The overlay stays open.
     Open,
-    /// The overlay closes.
     Closed,
     /// The overlay closes, and an action follows.
     Action(Action),

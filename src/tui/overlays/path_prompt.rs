@@ -17,7 +17,6 @@ use crate::widgets::theme::Theme;
 use crate::widgets::typing::edit;
 use wardrobe::Part;
 
-/// Purpose of the path or name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// Path of a file with subjects or fabrics to import.
@@ -28,14 +27,12 @@ pub enum Purpose {
     Write(Vec<(String, Vec<u8>)>),
     /// Name under which to save a query.
     SaveQuery(String),
-    /// New name for a saved query.
     RenameQuery(String),
     /// Name of who signs the last round of a fitting off.
     Sign(FittingOf),
 }
 
 impl Purpose {
-    /// Title of the prompt.
     pub fn title(&self) -> &'static str {
         match self {
             Self::Import(Part::Fabric) => "import fabrics from",
@@ -48,7 +45,6 @@ impl Purpose {
         }
     }
 
-    /// Hint at the paths that are accepted.
     pub fn hint(&self) -> &'static str {
         match self {
             Self::Import(Part::Fabric) => "TOML with [[fabric]] tables, or CSV with columns name, density_kg_m2, …",
@@ -81,7 +77,6 @@ impl Purpose {
         }
     }
 
-    /// Legend of the keys.
     pub fn keys(&self) -> &'static str {
         match self {
             Self::Import(_) => " ↵ import all or none  Tab complete  Esc cancel ",
@@ -94,31 +89,24 @@ impl Purpose {
     }
 }
 
-/// A prompt for a path or name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PathPrompt {
-    /// Purpose of the prompt.
     pub purpose: Purpose,
-    /// Text as typed.
     pub text: String,
     /// Files among which the typed path leaves a choice, after Tab.
     pub offered: Candidates,
-    /// Progress of reading or writing the file.
     pub sending: Sending,
 }
 
 impl PathPrompt {
-    /// Makes a prompt with a text to begin with.
     pub fn new(purpose: Purpose, text: impl Into<String>) -> Self {
         Self { purpose, text: text.into(), offered: Candidates::default(), sending: Sending::default() }
     }
 
-    /// True if the prompt is for a name, not for a path.
     fn is_name(&self) -> bool {
         matches!(self.purpose, Purpose::SaveQuery(_) | Purpose::RenameQuery(_) | Purpose::Sign(_))
     }
 
-    /// Handles a key.
     pub fn key(&mut self, event: &KeyEvent) -> Outcome {
         if self.sending.is_busy {
             return Outcome::Open;
@@ -169,7 +157,7 @@ fn next_ending(path: &mut String) {
     }
 }
 
-/// Path that was typed; `~/` is the home folder.
+/// Takes `~/` as the home folder.
 pub fn path_of(text: &str) -> PathBuf {
     let home = text.strip_prefix("~/").zip(std::env::home_dir());
     home.map_or_else(|| PathBuf::from(text), |(rest, home)| home.join(rest))
@@ -201,12 +189,10 @@ impl Candidates {
         Self { names }
     }
 
-    /// True where there is no choice.
     pub fn is_empty(&self) -> bool {
         self.names.len() < 2
     }
 
-    /// Names in lines of at most `columns` columns, at most `lines` of them.
     pub fn lines(&self, columns: usize, lines: usize, theme: Theme) -> Vec<Line<'static>> {
         if self.is_empty() || lines == 0 {
             return vec![];
@@ -248,7 +234,6 @@ fn names_of(folder: &str, start: &str, endings: &[&str]) -> Vec<String> {
     names
 }
 
-/// Draws the prompt.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, prompt: &PathPrompt, theme: Theme) {
     let width = area.width.min(100);
     let columns = usize::from(width.saturating_sub(2));

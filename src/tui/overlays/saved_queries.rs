@@ -14,19 +14,15 @@ use crate::widgets::theme::Theme;
 use crate::widgets::typing::in_list;
 use store::SavedQuery;
 
-/// A list of queries, narrowed by a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct QueryList {
-    /// All saved queries.
     pub queries: Vec<SavedQuery>,
-    /// Text as typed.
     pub text: String,
-    /// Index of the selected row among those shown.
+    /// Index among the rows shown.
     pub row: usize,
 }
 
 impl QueryList {
-    /// Queries that contain the text.
     pub fn rows(&self) -> Vec<&SavedQuery> {
         let text = self.text.to_lowercase();
         self.queries
@@ -50,7 +46,6 @@ impl QueryList {
     }
 }
 
-/// Draws the list.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, list: &QueryList, theme: Theme) {
     let rows = list.rows();
     let place = middle(area, area.width.min(100), (rows.len() as u16 + 2).max(3).min(area.height));

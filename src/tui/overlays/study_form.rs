@@ -23,29 +23,22 @@ use fit::Simulator;
 /// Columns for the names of the parts.
 const SECTION: usize = 17;
 
-/// A line of the form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FormLine {
-    /// Name of the study.
     Name,
-    /// Fabric, chosen from a list.
     Fabric,
-    /// Simulator by index, chosen or not.
     Simulator(usize),
     /// Style of several sizes, by the index of its first: all of them chosen, or not.
     Style(usize),
-    /// Size of a style by index, chosen or not.
     Size(usize),
-    /// Outfit of another study by index, chosen or not.
+    /// Outfit of another study, by index.
     Outfit(usize),
     /// Outfit of one's own, typed.
     OwnOutfit,
-    /// Subject by index, chosen or not.
     Subject(usize),
 }
 
 impl FormLine {
-    /// Heading of the part that the line belongs to.
     pub fn section(self) -> &'static str {
         match self {
             Self::Name => "name",
@@ -65,20 +58,14 @@ pub struct Filter {
     section: &'static str,
     /// Text that these lines must contain, in lower case.
     text: String,
-    /// True while the filter is typed.
     is_typed: bool,
 }
 
-/// A new study in a form.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyForm {
-    /// Name as typed.
     pub name: String,
-    /// Folder of all studies.
     pub folder: PathBuf,
-    /// Names of all fabrics.
     pub fabrics: Vec<String>,
-    /// Index of the chosen fabric.
     pub fabric: usize,
     /// Simulators, each chosen or not.
     pub simulators: Vec<(Simulator, bool)>,
@@ -88,15 +75,11 @@ pub struct StudyForm {
     pub opened: BTreeSet<String>,
     /// Outfits of other studies whose styles are there, each chosen or not.
     pub outfits: Vec<(NewOutfit, bool)>,
-    /// Outfit of one's own, as typed.
     pub own_outfit: String,
     /// Subjects, each chosen or not.
     pub subjects: Vec<(String, bool)>,
-    /// Filter of one part.
     pub filter: Filter,
-    /// Index of the selected line.
     pub at: usize,
-    /// Progress of writing the study.
     pub sending: Sending,
 }
 
@@ -168,7 +151,6 @@ impl StudyForm {
         !self.outfits.is_empty() || chosen.any(|style| Some(style) != first)
     }
 
-    /// True if a line passes the filter of its part.
     fn passes(&self, line: FormLine) -> bool {
         let words = match line {
             FormLine::Size(k) => format!("{} {}", self.sizes[k].0.style, self.sizes[k].0.size),
@@ -181,7 +163,6 @@ impl StudyForm {
         line.section() != self.filter.section || words.to_lowercase().contains(&self.filter.text)
     }
 
-    /// The selected line.
     pub fn line(&self) -> FormLine {
         self.lines().get(self.at).copied().unwrap_or(FormLine::Name)
     }
@@ -257,7 +238,6 @@ impl StudyForm {
         Ok(if is_fem { layers * self.jobs()[0] } else { 0 })
     }
 
-    /// Handles a key.
     pub fn key(&mut self, event: &KeyEvent) -> Outcome {
         if is_ctrl_c(event) || event.code == KeyCode::Esc && !self.leave() {
             return Outcome::Closed;
@@ -341,7 +321,6 @@ impl StudyForm {
         }
     }
 
-    /// Legend of the keys on the selected line.
     fn keys(&self) -> &'static str {
         match self.line() {
             _ if self.filter.is_typed => " type what the lines contain  ↵ keep  Esc all again ",
@@ -356,7 +335,6 @@ impl StudyForm {
         }
     }
 
-    /// Moves to the first line of the next or previous part.
     fn go_to_section(&mut self, step: isize) {
         let lines = self.lines();
         let starts: Vec<usize> =
@@ -436,12 +414,10 @@ fn origin(wearable: &Wearable) -> &'static str {
     if matches!(wearable.source, PatternSource::Drafted(_)) { "  drafted by the program" } else { "" }
 }
 
-/// Those of a list that are chosen.
 fn chosen<T: Clone>(all: &[(T, bool)]) -> Vec<T> {
     all.iter().filter(|(_, is_chosen)| *is_chosen).map(|(one, _)| one.clone()).collect()
 }
 
-/// Draws the form.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StudyForm, theme: Theme) {
     let width = area.width.min(90);
     let columns = usize::from(width.saturating_sub(2));
@@ -491,7 +467,6 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StudyForm, theme: Theme) {
     draw_frame(frame, area, width, "new study".to_owned(), form.keys(), shown, theme);
 }
 
-/// Line of the form: name of the part where one begins, then the choice.
 fn line(form: &StudyForm, k: usize, is_first_shown: bool, columns: usize, theme: Theme) -> Line<'static> {
     let lines = form.lines();
     let line = lines[k];

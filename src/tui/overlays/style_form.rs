@@ -25,19 +25,15 @@ const SEAMS: usize = 4;
 
 /// Most letters of a message about many sizes: the first sizes say enough.
 const LONGEST: usize = 400;
-/// Names of the lines.
 pub const LABELS: [&str; 5] = ["pattern", "style", "size", "unit", "seam file"];
 
-/// Values of a style, as typed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct StyleForm {
-    /// Pattern, style, size, unit, seam file, in the order of [`LABELS`].
+    /// Texts in the order of [`LABELS`].
     pub texts: [String; 5],
-    /// Index of the line that is edited.
     pub at: usize,
     /// Files among which a typed path leaves a choice, after Tab.
     pub offered: Candidates,
-    /// Progress of reading the files.
     pub sending: Sending,
 }
 
@@ -64,12 +60,10 @@ impl StyleForm {
         path.file_stem().unwrap_or_default().to_string_lossy().trim().to_owned()
     }
 
-    /// Name of the size as typed.
     pub fn size(&self) -> String {
         self.texts[SIZE].trim().to_owned()
     }
 
-    /// Handles a key.
     pub fn key(&mut self, event: &KeyEvent) -> Outcome {
         if self.sending.is_busy {
             return Outcome::Open;
@@ -107,7 +101,6 @@ impl StyleForm {
         text.len() > before || !self.offered.is_empty() && self.offered != known
     }
 
-    /// Sends the form, or reports what is wrong.
     fn save(&mut self) -> Outcome {
         let [pattern, _, size, unit, seams] = self.texts.each_ref().map(|text| text.trim());
         if pattern.is_empty() {
@@ -142,7 +135,6 @@ impl StyleForm {
     }
 }
 
-/// Draws the form.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StyleForm, theme: Theme) {
     let width = area.width.min(100);
     let columns = usize::from(width.saturating_sub(2));

@@ -6,18 +6,14 @@ use crate::messages::snapshot::Snapshot;
 /// A study or an entry of the catalogue.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Thing {
-    /// A study of the database.
     Study(String),
-    /// A subject of the catalogue.
     Subject(String),
-    /// A size of a style: style, then size.
+    /// Style, then size.
     Size(String, String),
-    /// A fabric of the catalogue.
     Fabric(String),
 }
 
 impl Thing {
-    /// All studies and entries that were read.
     pub fn all(data: Option<&Snapshot>) -> Vec<Self> {
         let Some(data) = data else { return vec![] };
         let studies = data.studies.iter().map(|row| Self::Study(row.name.clone()));
@@ -37,7 +33,6 @@ impl Thing {
         }
     }
 
-    /// Screen that shows the study or entry.
     pub fn screen(&self) -> Screen {
         match self {
             Self::Study(_) => Screen::Study,

@@ -55,12 +55,10 @@ impl Tour {
         (step < STEPS.len()).then_some(Self { step })
     }
 
-    /// Screen of the step.
     pub fn screen(self) -> Screen {
         STEPS[self.step].0
     }
 
-    /// Handles a key: next step, previous step, or end.
     pub fn key(self, event: &KeyEvent) -> Outcome {
         match event.code {
             KeyCode::Enter | KeyCode::Char(' ' | 'n' | 'l') | KeyCode::Right => Outcome::Tour(self.step + 1),
@@ -71,7 +69,6 @@ impl Tour {
     }
 }
 
-/// Draws the words below the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, tour: Tour, theme: Theme) {
     let width = usize::from(area.width.saturating_sub(2)).max(1);
     let texts = wrapped(STEPS[tour.step].1, width);

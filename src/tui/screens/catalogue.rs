@@ -14,7 +14,6 @@ use wardrobe::Part;
 /// Most entries that a question names.
 const NAMED: usize = 5;
 
-/// Screen of a part of the catalogue.
 fn screen_of(part: Part) -> Screen {
     match part {
         Part::Subject => Screen::Subjects,
@@ -34,7 +33,7 @@ pub fn may_change(state: &mut State, part: Part) -> bool {
     state.setup.abilities.run
 }
 
-/// Opens a form; without one says `otherwise`.
+/// Says `otherwise` without a form.
 pub fn fill_in(state: &mut State, form: Option<Form>, otherwise: &str) {
     match form {
         Some(form) => state.overlay = Some(Overlay::Form(Box::new(form))),
@@ -42,7 +41,6 @@ pub fn fill_in(state: &mut State, form: Option<Form>, otherwise: &str) {
     }
 }
 
-/// Opens the prompt for a file with entries.
 pub fn import(state: &mut State, part: Part) {
     if may_change(state, part) {
         state.overlay = Some(Overlay::Path(PathPrompt::new(Purpose::Import(part), "")));
@@ -91,7 +89,7 @@ pub fn remove(state: &mut State, part: Part, names: Vec<String>) {
     state.ask(text, names.into_iter().map(|name| Effect::Do(Command::Remove(part, name))).collect());
 }
 
-/// Carries out an action on the marks of a list; `None` for another action. `selected` is the selected row.
+/// Returns `None` for an action that is not about marks. `selected` is the selected row.
 pub fn mark(
     state: &mut State,
     marks: &mut Marks<String>,

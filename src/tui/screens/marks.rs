@@ -17,27 +17,22 @@ impl<T: Ord> Default for Marks<T> {
 }
 
 impl<T: Ord + Clone> Marks<T> {
-    /// True if no row is marked.
     pub fn is_empty(&self) -> bool {
         self.marked.is_empty()
     }
 
-    /// Number of marked rows.
     pub fn len(&self) -> usize {
         self.marked.len()
     }
 
-    /// True if a row is marked.
     pub fn has(&self, row: &T) -> bool {
         self.marked.contains(row)
     }
 
-    /// Marked rows, in order.
     pub fn iter(&self) -> impl Iterator<Item = &T> {
         self.marked.iter()
     }
 
-    /// Marks a row, or takes its mark away.
     pub fn toggle(&mut self, row: T) {
         if !self.marked.remove(&row) {
             self.marked.insert(row.clone());
@@ -65,7 +60,6 @@ impl<T: Ord + Clone> Marks<T> {
         }
     }
 
-    /// Takes all marks away.
     pub fn clear(&mut self) {
         (self.marked, self.last) = (BTreeSet::new(), None);
     }
@@ -78,7 +72,6 @@ impl<T: Ord + Clone> Marks<T> {
         (seen, hidden)
     }
 
-    /// Takes the marks of rows away that are gone.
     pub fn keep(&mut self, is_there: impl Fn(&T) -> bool) {
         self.marked.retain(is_there);
     }

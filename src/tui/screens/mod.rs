@@ -38,7 +38,6 @@ use crate::screens::study::StudyScreen;
 use crate::screens::styles::state::StylesScreen;
 use crate::screens::subjects::state::SubjectsScreen;
 
-/// All screens.
 #[derive(Default)]
 pub struct Screens {
     pub study: StudyScreen,
@@ -54,7 +53,6 @@ pub struct Screens {
 }
 
 impl Screens {
-    /// Returns a screen by its name.
     pub fn page(&self, screen: Screen) -> &dyn Page {
         match screen {
             Screen::Study => &self.study,
@@ -70,7 +68,6 @@ impl Screens {
         }
     }
 
-    /// Returns a screen by its name, to be changed.
     pub fn page_mut(&mut self, screen: Screen) -> &mut dyn Page {
         match screen {
             Screen::Study => &mut self.study,

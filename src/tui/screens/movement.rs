@@ -1,15 +1,12 @@
 //! Movements in lists.
 
-/// A movement in a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Movement {
     /// Some rows down, or up if negative.
     By(isize),
     /// Some rows down, or up if negative; from the last row on to the first.
     Round(isize),
-    /// To the first row.
     First,
-    /// To the last row.
     Last,
 }
 

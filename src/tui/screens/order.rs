@@ -1,11 +1,8 @@
 //! Order of rows.
 
-/// An order and its direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Order<T> {
-    /// Quantity that rows are ordered by.
     pub by: T,
-    /// True if the order is reversed.
     pub reversed: bool,
 }
 
@@ -19,7 +16,6 @@ impl<T: PartialEq> Order<T> {
         }
     }
 
-    /// Reverses the order.
     pub fn reverse(&mut self) {
         self.reversed = !self.reversed;
     }

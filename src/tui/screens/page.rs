@@ -12,17 +12,13 @@ use crate::screens::state::State;
 use crate::widgets::jump::Target;
 use crate::widgets::picture::PictureRequest;
 
-/// A text for the clipboard.
 pub struct Copied {
-    /// Name of the text in the message to the user.
     pub name: &'static str,
-    /// The text; values of a row or table are separated by tabs.
+    /// Values of a row or table are separated by tabs.
     pub text: String,
 }
 
-/// Drawing of a screen.
 pub trait Draw {
-    /// Draws the screen.
     fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State);
 
     /// Places to which a jump can lead: rows, panes and others.
@@ -41,17 +37,15 @@ pub trait Draw {
     }
 }
 
-/// Keys and actions of a screen. The `state` is what it shares with others.
+/// Keys and actions of a screen; `state` is what it shares with others.
 pub trait Page: Draw {
     /// Moves up or down in the pane that has the focus.
     fn go(&mut self, state: &mut State, movement: Movement);
 
-    /// Moves to the next or previous match of the filter.
     fn go_to_match(&mut self, state: &mut State, step: isize) {
         self.go(state, Movement::Round(step));
     }
 
-    /// Sorts by the next column.
     fn sort(&mut self, state: &mut State);
 
     /// Reverses the order; an order with two values sorts instead.
@@ -59,10 +53,8 @@ pub trait Page: Draw {
         self.sort(state);
     }
 
-    /// Selection as text for the clipboard.
     fn copied(&self, state: &State) -> Option<Copied>;
 
-    /// Moves the focus to a pane.
     fn focus(&mut self, state: &mut State, pane: usize) {
         state.nav.second_pane[state.nav.screen as usize] = pane == 1;
     }
@@ -70,10 +62,9 @@ pub trait Page: Draw {
     /// Moves to an item by the screen's own numbering.
     fn go_to_item(&mut self, _state: &mut State, _item: usize) {}
 
-    /// Moves left or right.
     fn sideways(&mut self, _state: &mut State, _step: isize) {}
 
-    /// Carries out an action of this screen; `None` for an action of another.
+    /// Returns `None` for an action of another screen.
     fn act(&mut self, _state: &mut State, _action: Action) -> Option<Vec<Effect>> {
         None
     }
@@ -91,7 +82,6 @@ pub trait Page: Draw {
     /// Takes the marks of its list away, as another screen is shown.
     fn left(&mut self) {}
 
-    /// Handles new data from the database.
     fn receive(&mut self, _state: &State) {}
 
     /// Requests what the screen shows and has not requested before.

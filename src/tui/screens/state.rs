@@ -20,53 +20,38 @@ use crate::widgets::theme::Theme;
 use store::{Grid, JobId, JobRow, LiveFrame, StudyRow, SubjectId};
 use wardrobe::SubjectRow;
 
-/// A message to the user in the status line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
-    /// Text of the message.
     pub text: String,
-    /// True for an error.
     pub is_error: bool,
 }
 
-/// Messages to the user, and commands that do the same as was done here.
 #[derive(Debug, Default)]
 pub struct Told {
-    /// Message in the status line.
     pub notice: Option<Notice>,
     /// Commands that do the same as was done here, the latest last.
     pub commands: Vec<String>,
     /// Command of an effect whose outcome is awaited; it joins `commands` on success.
     pub awaited: Option<String>,
-    /// Name of the text that is being copied.
     pub copying: String,
 }
 
-/// Abilities of this session of the workbench.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Abilities {
-    /// True if studies can be run.
     pub run: bool,
-    /// True if pictures can be shown.
     pub pictures: bool,
 }
 
-/// Folders for new files.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Folders {
-    /// Folder of studies.
     pub studies: PathBuf,
-    /// Folder of reports.
     pub reports: PathBuf,
 }
 
-/// Settings that this session was started with.
 pub struct Setup {
     /// Actions with their keys, from the built-in table and the user's file.
     pub bindings: &'static [Binding],
-    /// Abilities of this session.
     pub abilities: Abilities,
-    /// Folders for new files.
     pub folders: Folders,
     /// User and name of this machine, `USER@HOST`.
     pub login: String,
@@ -74,11 +59,8 @@ pub struct Setup {
     pub database: Option<PathBuf>,
 }
 
-/// Size and settings of the terminal.
 pub struct Terminal {
-    /// Columns and rows of the terminal.
     pub size: Size,
-    /// True while the mouse is captured.
     pub has_mouse: bool,
     /// True or false for a captured or a free mouse, once the user has chosen.
     pub chosen_mouse: Option<bool>,
@@ -88,22 +70,18 @@ pub struct Terminal {
     pub detached: bool,
 }
 
-/// The run that was started here.
 #[derive(Default)]
 pub struct Running {
-    /// Target of the run; `None` where none is in progress.
+    /// Target of the run; `None` where none goes on.
     pub target: Option<Target>,
     /// True from the end of a run here until the database was read without running jobs: those were of this run.
     pub is_settling: bool,
-    /// Job of the run that is watched.
     pub watched: Option<JobId>,
-    /// Latest shape of that job's garment.
+    /// Latest shape of the watched job's garment.
     pub live: Option<LiveFrame>,
 }
 
-/// The shown screen, and focus and filter of each screen.
 pub struct Navigation {
-    /// Shown screen.
     pub screen: Screen,
     /// Screens to go back to, the last first.
     pub trail: Vec<Screen>,
@@ -111,7 +89,6 @@ pub struct Navigation {
     pub second_pane: [bool; Screen::ALL.len()],
     /// Screen on which runs were marked. Results and comparisons of them keep the marks.
     pub marked_on: Screen,
-    /// The filter of each screen.
     pub filters: [String; Screen::ALL.len()],
     /// Lines that the table of the selected subject or fabric is scrolled down.
     pub table_down: usize,
@@ -127,40 +104,28 @@ pub struct InHand {
     pub fabric: Option<String>,
 }
 
-/// State that the screens share.
 pub struct State {
-    /// Colours and signs.
     pub theme: Theme,
-    /// Settings that this session was started with.
     pub setup: Setup,
-    /// Size and settings of the terminal.
     pub terminal: Terminal,
     /// Contents of the database as last read; `None` before the first time.
     pub data: Option<Box<Snapshot>>,
-    /// Study, garment and jobs that are shown.
     pub focus: Focus,
     /// Place of the selected cell in the grid.
     pub place: Place,
     /// Jobs marked for a comparison, or to be cancelled or queued again together.
     pub marks: Marks<JobId>,
-    /// Subject and fabric for trying a style on.
     pub in_hand: InHand,
-    /// The shown screen, and focus and filter of each screen.
     pub nav: Navigation,
-    /// List, form or question above the screen, if any.
     pub overlay: Option<Overlay>,
-    /// Messages to the user.
     pub told: Told,
-    /// The run that was started here.
     pub running: Running,
-    /// View and pictures of drapes.
     pub pictures: Pictures,
     /// The table of measurements, which Study and Results show.
     pub measurements: Measurements,
 }
 
 impl State {
-    /// Makes a state in which nothing was read yet.
     pub fn new(theme: Theme, abilities: Abilities, size: Size) -> Self {
         Self {
             theme,
@@ -193,7 +158,6 @@ impl State {
         }
     }
 
-    /// Area of the body of the screen.
     pub fn body(&self) -> Rect {
         rows(Rect::from((Position::ORIGIN, self.terminal.size)))[1]
     }
@@ -203,12 +167,10 @@ impl State {
         self.data.as_ref().is_some_and(|data| data.studies.is_empty())
     }
 
-    /// True if the second pane of the shown screen has the focus.
     pub fn in_second_pane(&self) -> bool {
         self.nav.second_pane[self.nav.screen as usize]
     }
 
-    /// Filter of the shown screen.
     pub fn filter(&self) -> &str {
         &self.nav.filters[self.nav.screen as usize]
     }
@@ -218,22 +180,20 @@ impl State {
         self.nav.filters[screen as usize].to_lowercase()
     }
 
-    /// Shown study.
     pub fn study(&self) -> Option<&StudyRow> {
         self.data.as_ref()?.study()
     }
 
-    /// Shown grid; `None` where it has no size or no subject.
+    /// Returns `None` where the grid has no size or no subject.
     pub fn grid(&self) -> Option<&Grid> {
         self.data.as_ref()?.grid()
     }
 
-    /// Offset of local time from UTC, ms.
+    /// Offset of local time from UTC.
     pub fn offset_ms(&self) -> i64 {
         self.data.as_ref().map_or(0, |data| data.offset_ms)
     }
 
-    /// The selected job.
     pub fn job(&self) -> Option<&JobRow> {
         self.data.as_ref()?.job(self.focus.job?)
     }
@@ -243,7 +203,6 @@ impl State {
         self.data.as_ref()?.detail.as_ref().filter(|detail| Some(detail.job) == self.focus.job)
     }
 
-    /// Subject for trying a style on.
     pub fn subject_in_hand(&self) -> Option<&SubjectRow> {
         self.data.as_ref()?.subjects.iter().find(|row| Some(row.id) == self.in_hand.subject)
     }
@@ -253,7 +212,6 @@ impl State {
         if job.is_some_and(|job| self.marks.has(&job)) { "•" } else { "" }
     }
 
-    /// Shows a study.
     pub fn open_study(&mut self, name: String) {
         self.focus.study = Some(name);
         (self.focus.garment, self.focus.job, self.place) = (None, None, Place::default());
@@ -278,7 +236,7 @@ impl State {
         self.nav.table_down = movement.from(self.nav.table_down.min(hidden), hidden + 1);
     }
 
-    /// Shows a screen. If it is in the trail, goes back to it.
+    /// Goes back to the screen if it is in the trail.
     pub fn show(&mut self, screen: Screen) {
         if screen == self.nav.screen {
             return;
@@ -292,7 +250,6 @@ impl State {
         self.nav.second_pane[Screen::Sql as usize] = true;
     }
 
-    /// Shows a message in the status line.
     pub fn say(&mut self, text: impl Into<String>) {
         self.told.notice = Some(Notice { text: text.into(), is_error: false });
     }
@@ -324,7 +281,6 @@ impl State {
         vec![Effect::Copy(text)]
     }
 
-    /// Runs a study, or says why it cannot run.
     pub fn run(&mut self, target: Target) -> Vec<Effect> {
         if !self.setup.abilities.run {
             self.complain("this workbench is read-only: start it without --readonly to run a study");

@@ -12,7 +12,6 @@ use crate::config::Env;
 /// Most bytes of a text that the terminal takes: xterm and those like it cut a sequence after 100,000 letters of base64.
 const LONGEST: usize = 74_994;
 
-/// Way to the clipboard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Way {
     /// A control sequence for the terminal, OSC 52.
@@ -24,7 +23,6 @@ enum Way {
 }
 
 impl Way {
-    /// Way for a text of some bytes in an environment.
     fn of(bytes: usize, env: &Env<'_>) -> Self {
         let set = |name: &str| env(name).filter(|value| !value.is_empty());
         let is_mute = set("STY").is_some() || set("TERM").is_none_or(|term| ["linux", "dumb"].contains(&term.as_str()));

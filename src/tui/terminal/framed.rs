@@ -23,10 +23,8 @@ const ERASED: usize = 8;
 /// Most bytes of a letter; a longer symbol is a sequence that shows pixels.
 const LETTER: usize = 16;
 
-/// A cell of the screen.
 #[derive(Clone, Default)]
 struct Slot {
-    /// Contents of the cell.
     cell: Cell,
     /// True if the contents are not sent yet.
     is_late: bool,
@@ -35,9 +33,7 @@ struct Slot {
 /// Kind of cells that are drawn but not sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Late {
-    /// Every cell is sent.
     Nothing,
-    /// Only pictures are not sent.
     Pictures,
     /// Texts are not sent, and perhaps pictures.
     Texts,
@@ -66,7 +62,6 @@ impl<W: Write> FramedBackend<W> {
         self.slots = vec![Slot::default(); usize::from(size.width) * usize::from(size.height)];
     }
 
-    /// Kind of cells that are drawn but not sent.
     pub fn late(&self) -> Late {
         let mut late = self.slots.iter().filter(|slot| slot.is_late).peekable();
         if late.peek().is_none() {
@@ -115,7 +110,6 @@ fn is_picture(cell: &Cell) -> bool {
     cell.bg != Color::Reset || matches!(cell.symbol(), "▀" | "▄") || cell.symbol().len() > LETTER
 }
 
-/// True if a cell looks like an erased one.
 fn is_blank(cell: &Cell) -> bool {
     let hidden = Modifier::REVERSED | Modifier::UNDERLINED | Modifier::CROSSED_OUT;
     cell.symbol() == " " && cell.bg == Color::Reset && !cell.modifier.intersects(hidden)
@@ -137,7 +131,6 @@ impl Default for Pen {
     }
 }
 
-/// A frame in the making.
 #[derive(Default)]
 struct Frame {
     bytes: Vec<u8>,
@@ -166,7 +159,6 @@ impl Frame {
         1
     }
 
-    /// Moves the cursor to a place.
     fn go(&mut self, x: usize, y: usize) {
         let sequence = match self.pen.at {
             Some(at) if at == (x, y) => return,
@@ -203,7 +195,6 @@ impl Frame {
     }
 }
 
-/// Weights with their codes.
 const WEIGHTS: [(Modifier, &str); 6] = [
     (Modifier::BOLD, "1"),
     (Modifier::DIM, "2"),
@@ -307,13 +298,11 @@ mod tests {
 
     const SIZE: Size = Size::new(40, 6);
 
-    /// A terminal that reads frames.
     fn terminal() -> vt100::Parser {
         let some = |n| NonZero::new(n).expect("not 0");
         vt100::Parser::new(some(SIZE.height), some(SIZE.width), 0)
     }
 
-    /// Draws the differences between two screens.
     fn draw(line: &mut FramedBackend<Vec<u8>>, before: &Buffer, after: &Buffer) {
         line.draw(before.diff(after).into_iter()).expect("memory");
     }
@@ -361,14 +350,12 @@ mod tests {
         check(Color::Rgb(1, 20, 255), 0, "38;2;1;20;255");
     }
 
-    /// A letter on a screen, with style.
     fn cell() -> impl Strategy<Value = (u16, u16, &'static str, u8, u8, bool)> {
         let symbols = prop::sample::select(vec!["a", " ", "─", "▀", "⠿", "Z", " ", " "]);
         (0..SIZE.width, 0..SIZE.height, symbols, 0..5u8, 0..3u8, any::<bool>())
     }
 
     proptest! {
-        /// However screens follow and frames are divided, in the end the terminal shows the last screen.
         #[test]
         fn the_terminal_shows_what_was_drawn(screens in prop::collection::vec(prop::collection::vec(cell(), 0..120), 1..4)) {
             let (mut line, mut terminal) = (FramedBackend::new(vec![], Some(SIZE)).expect("a size"), terminal());

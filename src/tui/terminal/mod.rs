@@ -29,11 +29,9 @@ const FOLLOWING: Duration = Duration::from_millis(160);
 /// The terminal while the workbench has it. Dropping this gives it back.
 pub struct Display {
     terminal: Terminal<FramedBackend<Stdout>>,
-    /// Time of the latest key.
     last_key: Option<Instant>,
     /// Time after that key for which pictures wait.
     rest: Duration,
-    /// Time of the latest frame.
     last_frame: Option<Instant>,
     /// True if the state has changed since the last drawing.
     is_stale: bool,
@@ -72,7 +70,6 @@ impl Display {
         }
     }
 
-    /// Size of the terminal.
     pub fn size(&self) -> io::Result<Size> {
         self.terminal.size()
     }
@@ -118,7 +115,6 @@ impl Display {
         self.last_key.map_or(Duration::ZERO, |key| self.rest.saturating_sub(key.elapsed()))
     }
 
-    /// Notes that a key was pressed.
     pub fn key_pressed(&mut self) {
         let follows = self.last_key.is_some_and(|last| last.elapsed() < FOLLOWING);
         self.rest = if follows { REST } else { Duration::ZERO };
@@ -147,7 +143,6 @@ impl Drop for Display {
     }
 }
 
-/// Captures the mouse, or leaves it to the terminal.
 pub fn take_mouse(is_taken: bool) -> io::Result<()> {
     if is_taken { execute!(io::stdout(), EnableMouseCapture) } else { execute!(io::stdout(), DisableMouseCapture) }
 }
@@ -168,7 +163,6 @@ pub fn silence_input() -> io::Result<UnixStream> {
     Ok(ours)
 }
 
-/// Gives the terminal back, if it is still there.
 fn restore() {
     // Errors cannot be shown: the terminal is what failed.
     let _ = execute!(io::stdout(), DisableMouseCapture, terminal::LeaveAlternateScreen, cursor::Show);

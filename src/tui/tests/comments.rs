@@ -17,7 +17,6 @@ fn fitting(subject: &str) -> FittingOf {
     FittingOf { study: "men-tops".into(), garment: "tshirt".into(), subject: subject.into() }
 }
 
-/// The one change that keys ask for.
 fn change(bench: &mut Bench, keys: &str) -> (FittingOf, Change) {
     match bench.press(keys).asked().as_slice() {
         [Effect::Do(Command::Comment(of, CommentDeed::Set(change)))] => (of.clone(), (**change).clone()),

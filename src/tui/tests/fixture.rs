@@ -21,13 +21,13 @@ use store::{
 use wardrobe::seams::Workpiece;
 use wardrobe::{FabricRow, SizeRow, SubjectRow};
 
-/// Present time, ms since 1970: 2023-11-14 22:13:20 UTC.
+/// Present time: 2023-11-14 22:13:20 UTC.
 const NOW_MS: i64 = 1_700_000_000_000;
 const SIZES: [&str; 2] = ["S", "M"];
 const SUBJECTS: [&str; 3] = ["i", "ii", "iii"];
 const SIMULATORS: [Simulator; 2] = [Simulator::Fem, Simulator::Hybrid];
 
-/// Ease of each size on each subject, m.
+/// Ease of each size on each subject.
 const EASE_M: [[f64; 3]; 2] = [[0.043, 0.111, -0.012], [0.089, 0.157, 0.066]];
 
 /// States of jobs 1 to 12, by size, subject and simulator.
@@ -232,7 +232,6 @@ fn sizes() -> Vec<SizeRow> {
     SIZES.iter().enumerate().map(row).collect()
 }
 
-/// A file of the thesis's T-shirt.
 fn tshirt_file(end: &str) -> SourceFile {
     let found = drafted(Model::Tshirt).into_iter().find(|(name, _)| name.ends_with(end));
     let (name, bytes) = found.unwrap_or_else(|| panic!("no file {end}"));
@@ -317,7 +316,6 @@ fn subjects() -> Vec<SubjectRow> {
     ]
 }
 
-/// Tape measurements of the body of any subject of the example.
 pub fn girths() -> Girths {
     let read = serde_json::json!({
         "stature_mm": 1690.2,
@@ -343,7 +341,6 @@ pub fn girths() -> Girths {
     serde_json::from_value(read).expect("the keys of `body measure`")
 }
 
-/// A database without studies.
 pub fn empty() -> Snapshot {
     Snapshot {
         now_ms: NOW_MS,
@@ -368,7 +365,6 @@ pub fn empty() -> Snapshot {
     }
 }
 
-/// Details of a job of the example study.
 pub fn detail(id: JobId) -> Detail {
     let status = STATES[id.0 as usize - 1];
     let has_result = status.has_result();
@@ -430,7 +426,6 @@ pub fn compared(id: JobId) -> Compared {
     Compared { chi: chi.collect(), metrics, inputs, job }
 }
 
-/// Recommendations of the example study.
 pub fn recommendations() -> Vec<RecommendationRow> {
     vec![RecommendationRow {
         garment: "tshirt".into(),

@@ -6,7 +6,6 @@ use crate::screens::fit::state::View;
 use crate::screens::study::actions::places;
 use crate::widgets::jump::{Goal, label};
 
-/// Letters of a target with a goal, as they are shown after some keys.
 fn letters(bench: &mut Bench, goal: impl Fn(Goal) -> bool) -> String {
     bench.press("'");
     let Some(Overlay::Jump(jump)) = &bench.app.state.overlay else { panic!("{}", bench.screen()) };

@@ -38,7 +38,6 @@ struct Bench {
 }
 
 impl Bench {
-    /// A workbench that has read some data.
     fn new(width: u16, height: u16, data: Snapshot) -> Self {
         let abilities = Abilities { run: true, pictures: true };
         let app = App::new(Theme::new(Colours::True, false), abilities, Size::new(width, height));
@@ -129,7 +128,6 @@ impl Bench {
         effects.into_iter().filter(|e| !is_done(e)).collect()
     }
 
-    /// The screen with its styles, in a test backend.
     fn drawn(&self) -> TestBackend {
         let Size { width, height } = self.app.state.terminal.size;
         let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("a test backend never fails");
@@ -137,17 +135,14 @@ impl Bench {
         terminal.backend().clone()
     }
 
-    /// The layout of the selected size.
     fn layout(&self) -> &SizeLayout {
         self.app.screens.styles.laid_out(&self.app.state).expect("laid out")
     }
 
-    /// The screen as text.
     fn screen(&self) -> String {
         self.drawn().to_string()
     }
 
-    /// The last line of the screen.
     fn status(&self) -> String {
         self.screen().lines().last().unwrap_or_default().trim_matches('"').trim().to_owned()
     }

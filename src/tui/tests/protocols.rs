@@ -32,7 +32,6 @@ fn picture() -> RgbaImage {
     })
 }
 
-/// Output that keeps its bytes.
 #[derive(Clone, Default)]
 struct Kept(Rc<RefCell<Vec<u8>>>);
 
@@ -99,7 +98,6 @@ fn base64(text: &str) -> Vec<u8> {
     BASE64_STANDARD.decode(text).expect("base64")
 }
 
-/// Greatest difference between two pictures of one size, in any channel.
 fn difference(a: &RgbaImage, b: &RgbaImage) -> u8 {
     assert_eq!(a.dimensions(), b.dimensions());
     a.as_raw().iter().zip(b.as_raw()).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0)

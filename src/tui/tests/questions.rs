@@ -338,7 +338,6 @@ fn ascii_has_a_stand_in_for_every_sign() {
     }
 }
 
-/// The query thread stops its query, and reports that.
 #[test]
 fn the_brake_stops_a_query_that_would_never_end() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -376,7 +375,6 @@ fn escape_closes_the_form_of_a_study() {
     assert!(bench.press("<Esc>").app.state.overlay.is_none());
 }
 
-/// The form of a new study after some keys.
 fn form(keys: &str) -> Option<StudyForm> {
     match Bench::example(80, 24).press("a").press(keys).app.state.overlay.take() {
         Some(Overlay::StudyForm(form)) => Some(*form),

@@ -15,18 +15,15 @@ use store::files::SourceFile;
 use wardrobe::seams::{Choice, DeskSeam, SeamStep, Undecided};
 use wardrobe::{Part, StyleGiven};
 
-/// Seams on the desk.
 fn seams(bench: &Bench) -> Vec<DeskSeam> {
     bench.layout().out.desk.seams.clone()
 }
 
-/// Name of the selected edge's seam.
 fn seam(bench: &Bench) -> String {
     let layout = bench.layout();
     layout.seam_at(bench.app.screens.styles.edge).map_or("none".into(), |k| layout.out.desk.seams[k].name.clone())
 }
 
-/// The seam file that is to be saved.
 fn saved(bench: &mut Bench) -> SourceFile {
     match bench.press("w").asked().pop() {
         Some(Effect::Do(Command::SaveSeams(style, seams))) if style == "tshirt" => seams,
@@ -143,7 +140,6 @@ fn sides_of_unlike_length_are_sewn_with_ease_only_after_asking() {
     assert!((sewn.a_mm - sewn.b_mm).abs() > 1.0 && seams(&bench).len() == before.len() - 1, "{}", bench.status());
 }
 
-/// Number of open questions.
 fn undecided(bench: &Bench) -> usize {
     bench.layout().out.undecided.len()
 }
@@ -376,7 +372,6 @@ fn the_preview_is_cut_from_the_fabric_of_the_study() {
     assert_eq!(fabric("9jj3"), "stiff", "what was gone to counts more");
 }
 
-/// The example's size with a question about some edges, asked.
 fn asked(width: u16, edges: &[EdgeAt]) -> Bench {
     let mut bench = Bench::example(width, if width < 100 { 24 } else { 50 });
     bench.press("3<Enter>");

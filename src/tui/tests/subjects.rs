@@ -16,7 +16,6 @@ fn selected(bench: &Bench) -> &str {
     bench.app.screens.subjects.selected(&bench.app.state).map_or("", |row| row.name.as_str())
 }
 
-/// Subject of the latest effect, which must save one.
 fn saved(bench: &mut Bench) -> (Mode, String, Vec<(String, String)>) {
     match bench.asked().pop() {
         Some(Effect::Do(Command::Save(Part::Subject, mode, name, given))) => (mode, name, given),

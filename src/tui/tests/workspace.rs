@@ -14,7 +14,6 @@ use spec::JobSpec;
 use store::{Origin, Status, Store, StudyError};
 use wardrobe::catalogue;
 
-/// Refuses every job.
 struct Refusing;
 
 impl Executor for Refusing {

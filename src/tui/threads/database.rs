@@ -20,11 +20,8 @@ use wardrobe::{Deed, Mode, Part, Saved, Strictness, StyleGiven, catalogue};
 /// Time between two checks for changes of the database. A check costs microseconds.
 const POLL: Duration = Duration::from_millis(250);
 
-/// A request to the thread of the database.
 pub enum Request {
-    /// Read what the screens show.
     Read(Focus),
-    /// Act on the queue or the catalogue.
     Do(Command),
 }
 
@@ -64,20 +61,16 @@ pub fn serve(store: Store, asked: &Receiver<Request>, sender: &Sender<Message>) 
     }
 }
 
-/// State of the thread of the database.
 struct Reader {
     store: Store,
     focus: Focus,
     last: Option<Reading>,
-    /// Time until the next check.
     rest: Duration,
     /// Heartbeats of other machines' jobs, as seen here.
     watch: Watch,
 }
 
-/// A reading of the database.
 struct Reading {
-    /// Version of the database that was read.
     version: i64,
     focus: Focus,
     data: Snapshot,
@@ -134,7 +127,6 @@ impl Reader {
         Ok(())
     }
 
-    /// Makes a change. Returns the message about its outcome.
     fn carry_out(&mut self, command: Command) -> Message {
         let done = carry_out(&mut self.store, &command).map_err(|error| error.to_string());
         match (command, done) {
@@ -147,7 +139,7 @@ impl Reader {
     }
 }
 
-/// Makes a change of queue or catalogue. Returns a line that describes it.
+/// Returns a line that describes the change.
 pub fn carry_out(store: &mut Store, command: &Command) -> Result<String, StudyError> {
     match command {
         Command::Save(part, mode, name, given) => {
@@ -204,7 +196,7 @@ pub fn carry_out(store: &mut Store, command: &Command) -> Result<String, StudyEr
     }
 }
 
-/// Changes the comments of a fitting. Returns a line about it.
+/// Returns a line about the change.
 fn commented(store: &mut Store, of: &FittingOf, deed: &CommentDeed) -> Result<String, StudyError> {
     let FittingOf { study, garment, subject } = of;
     let fitting = Fitting { study, garment, subject };
@@ -259,7 +251,6 @@ fn there(path: &Path, wanted: &str) -> Result<(), StudyError> {
 /// Number of entries after the first from which they are counted.
 const MANY: usize = 3;
 
-/// Line that describes saved entries.
 fn said(saved: &[Saved]) -> String {
     match saved {
         [first, rest @ ..] if rest.len() >= MANY => {

@@ -17,7 +17,6 @@ use crate::messages::message::Message;
 const WAIT: Duration = Duration::from_millis(200);
 const AWAY: Duration = Duration::from_millis(10);
 
-/// The keyboard, which can be lent to another program.
 #[derive(Clone, Default)]
 pub struct Keyboard {
     is_lent: Arc<AtomicBool>,
@@ -35,7 +34,7 @@ impl Keyboard {
         outcome
     }
 
-    /// Next event; `None` if there is none within [`WAIT`].
+    /// Returns `None` if there is no event within [`WAIT`].
     fn next(&self) -> std::io::Result<Option<Event>> {
         if self.is_lent.load(Ordering::SeqCst) {
             thread::sleep(AWAY);
@@ -68,7 +67,6 @@ pub fn read_keys(keyboard: &Keyboard, sender: &Sender<Message>) {
     }
 }
 
-/// Sends a message for each signal.
 pub fn watch_signals(sender: &Sender<Message>) {
     let mut signals = match Signals::new([SIGTERM, SIGHUP, SIGINT]) {
         Ok(signals) => signals,

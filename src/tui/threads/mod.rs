@@ -35,11 +35,8 @@ use crate::threads::queries::Canceller;
 use crate::widgets::picture::{PictureEncoder, PictureRequest};
 use store::{Encoder, JobId, Live, Store};
 
-/// The threads, and the messages from them.
 pub struct Threads {
-    /// Messages from the threads.
     pub messages: Receiver<Message>,
-    /// Keyboard, which one of the threads reads.
     pub keyboard: Keyboard,
     sender: Sender<Message>,
     database: Sender<Request>,
@@ -109,7 +106,6 @@ impl Threads {
         }
     }
 
-    /// Requests a reading of the database.
     pub fn read(&self, focus: Focus) {
         self.carry_out(Effect::Read(focus));
     }
@@ -142,7 +138,6 @@ impl Threads {
         }
     }
 
-    /// Path of a study to run.
     pub fn path_of(&self, target: Target) -> PathBuf {
         match target {
             Target::Study(path) => path,

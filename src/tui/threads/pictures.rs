@@ -43,7 +43,6 @@ pub fn serve(
 struct Renderer<'a> {
     store: Result<Store, String>,
     scenes: Scenes,
-    /// Latest body, or the reason why there is none.
     ready: Option<(SubjectId, Result<Figure, String>)>,
     previews: &'a Slot,
     sender: &'a Sender<Message>,
@@ -73,7 +72,6 @@ impl Renderer<'_> {
         self.sender.send(told)
     }
 
-    /// The pixels of a picture.
     fn picture(&mut self, request: &PictureRequest, (width, height): (u32, u32)) -> Result<RgbaImage, String> {
         match (request.of, &self.ready) {
             (Pictured::Drape(job), _) => {

@@ -54,11 +54,8 @@ pub fn serve(
     }
 }
 
-/// A preview, and what it shows.
 struct Dressed {
-    /// Name of the subject.
     subject: String,
-    /// Name of the fabric.
     fabric: String,
     preview: Preview,
 }
@@ -69,7 +66,6 @@ struct Room {
 }
 
 impl Room {
-    /// Sews and drapes the size of a request on its subject.
     fn dress(&mut self, request: &PreviewRequest, is_stale: &dyn Fn() -> bool) -> Result<Dressed, StudyError> {
         let store = self.store.as_ref().map_err(|error| StudyError::refused(Origin::Store, error.clone()))?;
         if self.ready.as_ref().is_none_or(|(subject, _)| *subject != request.subject) {

@@ -20,7 +20,6 @@ const MOST_ROWS: usize = 20_000;
 /// Time before the first number of rows of an export is told, and between two of them.
 const SOON: Duration = Duration::from_secs(1);
 
-/// Stops the query of the thread.
 #[derive(Clone, Default)]
 pub struct Canceller {
     is_on: Arc<AtomicBool>,
@@ -28,7 +27,6 @@ pub struct Canceller {
 }
 
 impl Canceller {
-    /// Ends the query that runs now.
     pub fn cancel(&self) {
         self.is_on.store(true, Ordering::Relaxed);
         if let Some(interrupter) = self.interrupter.get() {
@@ -42,7 +40,6 @@ impl Canceller {
     }
 }
 
-/// Answers requests until nobody requests or listens any more.
 pub fn serve(
     database: &Path,
     canceller: &Canceller,
@@ -142,7 +139,6 @@ fn rename(folder: &Path, from: &str, to: &str) -> Result<String, String> {
     Ok(format!("{from} is {to} now"))
 }
 
-/// Tables and views that a query may name, and the saved queries.
 fn names(store: Result<&Store, String>, folder: &Path) -> Message {
     let names = store.and_then(|store| {
         let names = sql::relations(store).and_then(|known| Ok((known, saved_queries(Some(folder))?)));
@@ -151,7 +147,6 @@ fn names(store: Result<&Store, String>, folder: &Path) -> Message {
     names.map_or_else(Message::Failed, |(relations, queries)| Message::Names(relations, queries))
 }
 
-/// Message for an error of a query, or for a query that was stopped.
 fn said(error: &StudyError) -> String {
     match error {
         StudyError::Interrupted => "cancelled".to_owned(),

@@ -9,7 +9,6 @@ use store::queue::Interrupted;
 use store::{JobFilter, JobId, Result, Status, Store, StudyError, comments, now_ms, queue, read};
 use wardrobe::catalogue;
 
-/// Reads the data for a focus.
 pub fn snapshot(store: &Store, focus: &Focus) -> Result<Snapshot> {
     let studies = read::studies(store)?;
     let study = studies.iter().position(|study| Some(&study.name) == focus.study.as_ref()).unwrap_or(0);
@@ -87,7 +86,6 @@ pub fn refocused(store: &Store, mut before: Snapshot, focus: &Focus) -> Result<S
     Ok(before)
 }
 
-/// Reads the jobs that are compared.
 fn add_compared(store: &Store, snapshot: &mut Snapshot, focus: &Focus) -> Result<()> {
     (snapshot.compared, snapshot.recommendations) = (vec![], vec![]);
     for id in &focus.compare {
@@ -112,7 +110,7 @@ fn worn(store: &Store, snapshot: &Snapshot, focus: &Focus) -> Result<Option<Garm
     }
 }
 
-/// Reads a job for a comparison; `None` for a job that is gone.
+/// Returns `None` for a job that is gone.
 fn compared(store: &Store, id: JobId) -> Result<Option<Compared>> {
     let job = match read::job(store, id) {
         Err(StudyError::NotFound { .. }) => return Ok(None),

@@ -12,7 +12,6 @@ use store::comments::{Fitting, begin_round};
 use store::{Store, StudyError};
 use wardrobe::catalogue;
 
-/// Answers requests until nobody requests or listens any more.
 pub fn serve(database: &Path, wanted: &Receiver<RoundRequest>, sender: &Sender<Message>) {
     while let Ok(request) = wanted.recv() {
         let FittingOf { garment, subject, .. } = &request.of;

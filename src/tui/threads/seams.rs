@@ -36,14 +36,12 @@ pub fn serve(database: &Path, readonly: bool, wanted: &Receiver<SeamTask>, sende
     }
 }
 
-/// Workpiece of a size, with its seam file as stored.
 fn workpiece(store: &Store, request: &LayoutRequest) -> Result<(Workpiece, Option<SourceFile>), StudyError> {
     let stored = catalogue::workpiece(store, request.key)?;
     let seams = request.seams.clone().or(stored.seams.clone());
     Ok((Workpiece { seams, ..stored.clone() }, stored.seams))
 }
 
-/// Lays a size out.
 pub fn lay_out(store: &Store, request: &LayoutRequest) -> Result<SizeLayout, StudyError> {
     let (piece, stored) = workpiece(store, request)?;
     let study = request.study.as_deref();
@@ -51,7 +49,6 @@ pub fn lay_out(store: &Store, request: &LayoutRequest) -> Result<SizeLayout, Stu
     Ok(SizeLayout { out: piece.laid_out()?, stored, home })
 }
 
-/// Returns the seam file of a size after a step of work.
 pub fn sew(store: &Store, request: &LayoutRequest, step: &SeamStep) -> Result<SourceFile, StudyError> {
     workpiece(store, request)?.0.after(step)
 }

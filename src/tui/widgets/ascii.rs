@@ -75,7 +75,6 @@ const STAND_INS: [(char, char); 66] = [
 /// Letters of growing density, for braille dots.
 const DENSITY: [char; 9] = [' ', '.', '.', ':', ':', '+', '+', '#', '#'];
 
-/// Replaces the signs in a buffer by their substitutes.
 pub fn translate(buffer: &mut Buffer) {
     for cell in &mut buffer.content {
         let Some(sign) = cell.symbol().chars().next().filter(|sign| !sign.is_ascii()) else { continue };
@@ -83,7 +82,7 @@ pub fn translate(buffer: &mut Buffer) {
     }
 }
 
-/// Substitute of a sign; `?` for a sign without one.
+/// Returns `?` for a sign without a substitute.
 pub fn stand_in(sign: char) -> char {
     if ('\u{2800}'..='\u{28ff}').contains(&sign) {
         return DENSITY[(sign as u32 - 0x2800).count_ones() as usize];

@@ -7,12 +7,11 @@ use crate::widgets::dots::Dots;
 use results::Look;
 use store::LiveFrame;
 
-/// Step in which the height of the view changes, m, so that the picture does not tremble.
+/// Step in which the height of the view changes, so that the picture does not tremble.
 const STEP_M: f64 = 0.1;
 /// Factor on the extent of the garment that leaves a margin.
 const MARGIN: f64 = 1.05;
 
-/// Draws a frame as `rows` lines of braille with `columns` columns.
 pub fn braille(frame: &LiveFrame, look: Look, columns: usize, rows: usize, style: Style) -> Vec<Line<'static>> {
     let (sin, cos) = f64::from(look.azimuth_deg).to_radians().sin_cos();
     let seen: Vec<[f64; 2]> = frame.positions.iter().map(|p| [p.y * sin - p.x * cos, p.z]).collect();

@@ -9,9 +9,7 @@ const BITS: [[u32; 4]; 2] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]]
 /// A dashed line, as numbers of dots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dash {
-    /// Dots drawn in a row.
     pub on: usize,
-    /// Dots left out after them.
     pub off: usize,
 }
 
@@ -22,7 +20,6 @@ pub struct Dots {
 }
 
 impl Dots {
-    /// Cells without a dot.
     pub fn new(columns: usize, rows: usize) -> Self {
         Self { columns, cells: vec![(0, Style::new()); columns * rows] }
     }

@@ -36,30 +36,23 @@ const WORDS: [&str; 24] = [
 /// Most edits that can be undone.
 const REMEMBERED: usize = 100;
 
-/// Style of editing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Editing {
     /// Readline's keys: letters are typed, keys with Ctrl and Alt move and cut.
     #[default]
     Readline,
-    /// Vim's keys, in two modes.
     Vim,
 }
 
-/// Meaning of letters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
-    /// Letters are typed.
     #[default]
     Insert,
-    /// Letters are commands of vim.
     Normal,
 }
 
-/// A text with a cursor.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Editor {
-    /// Text; lines are separated by line feeds.
     text: String,
     /// Position of the cursor: a byte of `text` between characters.
     pub(super) cursor: usize,
@@ -71,7 +64,6 @@ pub struct Editor {
     pub(super) killed: String,
     /// Texts and cursors before the latest edits in normal mode.
     before_edits: Vec<(String, usize)>,
-    /// Words offered for the word before the cursor.
     offer: Option<Offer>,
 }
 
@@ -80,24 +72,20 @@ pub struct Editor {
 pub struct Offer {
     /// Byte at which the word begins.
     start: usize,
-    /// Possible words, in order.
     pub words: Vec<String>,
     /// Index of the word that is in the text; `None` while words are only offered.
     pub taken: Option<usize>,
 }
 
 impl Editor {
-    /// The text.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// The words offered.
     pub fn offer(&self) -> Option<&Offer> {
         self.offer.as_ref()
     }
 
-    /// Withdraws the offered words.
     pub fn decline(&mut self) {
         self.offer = None;
     }
@@ -108,12 +96,11 @@ impl Editor {
         *self = Self { text: text.to_owned(), cursor: text.len(), editing, killed, ..Self::default() };
     }
 
-    /// Uses the keys of readline or vim from now on.
     pub fn edit_as(&mut self, editing: Editing) {
         self.editing = editing;
     }
 
-    /// Meaning of letters; `None` for readline, where it does not change.
+    /// Returns `None` for readline, where the meaning of letters does not change.
     pub fn mode(&self) -> Option<Mode> {
         (self.editing == Editing::Vim).then_some(self.mode)
     }
@@ -214,14 +201,12 @@ impl Editor {
         self.cursor = from;
     }
 
-    /// Stores the text for undo.
     pub(super) fn remember(&mut self) {
         self.before_edits.push((self.text.clone(), self.cursor));
         let surplus = self.before_edits.len().saturating_sub(REMEMBERED);
         self.before_edits.drain(..surplus);
     }
 
-    /// Undoes the latest edit.
     pub(super) fn undo(&mut self) {
         if let Some((text, cursor)) = self.before_edits.pop() {
             (self.text, self.cursor) = (text, cursor);
@@ -236,7 +221,6 @@ impl Editor {
         self.letter_after(self.cursor)
     }
 
-    /// Position after the letter at a position.
     pub(super) fn letter_after(&self, at: usize) -> usize {
         at + self.text[at..].chars().next().map_or(0, char::len_utf8)
     }
@@ -289,7 +273,6 @@ impl Editor {
         self.cursor = self.text[*start..end].char_indices().nth(column).map_or(end, |(at, _)| start + at);
     }
 
-    /// Puts the next offered word into the text.
     fn take_word(&mut self, step: isize) {
         let Some(offer) = &mut self.offer else { return };
         let last = offer.words.len() as isize;

@@ -11,13 +11,11 @@ const STEP: u8 = 8;
 /// A picture of half blocks: colours of the upper and lower half of each cell, row by row; `None` for background.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Blocks {
-    /// Columns and rows.
     pub size: Size,
     halves: Vec<[Option<[u8; 3]>; 2]>,
 }
 
 impl Blocks {
-    /// Makes half blocks from a picture.
     pub fn of(picture: &RgbaImage, size: Size) -> Self {
         let (columns, rows) = (u32::from(size.width), u32::from(size.height));
         let half = |x: u32, y: u32| {

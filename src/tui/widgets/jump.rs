@@ -7,10 +7,9 @@ use crate::widgets::lists::first_shown;
 /// Letters for labels, the easiest to type first.
 const LETTERS: &[u8; 26] = b"asdfghjklqwertyuiopzxcvbnm";
 
-/// Goal of a jump.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Goal {
-    /// A pane of the screen, from 0.
+    /// Pane, from 0.
     Pane(usize),
     /// A pane, then a number of rows down.
     Row(usize, isize),
@@ -18,14 +17,12 @@ pub enum Goal {
     Item(usize),
 }
 
-/// A place on the screen, and the goal of a jump to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Target {
     /// Cell at which its label begins.
     pub at: Position,
     /// Columns and rows from there on that a click can hit.
     pub size: Size,
-    /// Goal of the jump.
     pub goal: Goal,
 }
 

@@ -17,7 +17,6 @@ pub fn is_narrow(area: Rect) -> bool {
     area.width < NARROW.0 || area.height < NARROW.1
 }
 
-/// Area of a size in the middle of another.
 pub fn middle(area: Rect, width: u16, height: u16) -> Rect {
     let x = area.x + area.width.saturating_sub(width) / 2;
     let y = area.y + area.height.saturating_sub(height) / 2;

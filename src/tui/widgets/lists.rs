@@ -16,7 +16,6 @@ pub fn pane<'a>(theme: Theme, title: impl Into<String>, focused: bool) -> Block<
     Block::bordered().border_style(theme.border(focused)).title(Span::styled(title, style))
 }
 
-/// A line as the selected one, in one style.
 pub fn selected_line(line: Line<'static>, style: Style) -> Line<'static> {
     let text: String = line.spans.iter().map(|span| span.content.as_ref()).collect();
     Line::styled(text, style)

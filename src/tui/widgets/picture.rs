@@ -15,7 +15,6 @@ use render::View;
 use results::{Look, Map};
 use store::{JobId, SubjectId};
 
-/// Way in which pictures are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Images {
     /// As pixels where the environment says that the terminal can, as half blocks otherwise.
@@ -23,7 +22,6 @@ pub enum Images {
     Auto,
     /// As half blocks, which every terminal with colours shows.
     Halfblocks,
-    /// No pictures.
     Off,
 }
 
@@ -42,9 +40,9 @@ impl std::str::FromStr for Images {
 
 /// Pixels rendered for a cell that shows two pixels or a letter.
 const SMALL: FontSize = FontSize::new(6, 12);
-/// Angle of one step of turning, degrees.
+/// Angle of one step of turning.
 const TURN_DEG: i32 = 15;
-/// Least and greatest enlargement, %. A step multiplies or divides by 5/4.
+/// Least and greatest enlargement. A step multiplies or divides by 5/4.
 const ZOOM_PCT: [u32; 2] = [100, 800];
 
 /// The whole drape, from the front.
@@ -61,7 +59,6 @@ pub fn look_name(look: Look) -> String {
     if look.zoom_pct == FRONT.zoom_pct { side } else { format!("{side} ×{:.1}", f64::from(look.zoom_pct) / 100.0) }
 }
 
-/// Named view that follows a look.
 pub fn next_view(look: Look) -> Look {
     let at = view_of(look).and_then(|view| View::ALL.iter().position(|known| *known == view));
     let next = View::ALL[at.map_or(0, |at| (at + 1) % View::ALL.len())];
@@ -83,23 +80,19 @@ pub fn zoomed(look: Look, steps: i32) -> Look {
     Look { zoom_pct, rise_pct, ..look }
 }
 
-/// Enlarged look, raised by some steps.
 pub fn raised(look: Look, steps: i32) -> Look {
     let step = (2000 / look.zoom_pct as i32).max(2);
     let reach = 100 - 100 * ZOOM_PCT[0] as i32 / look.zoom_pct as i32;
     Look { rise_pct: (look.rise_pct + steps * step).clamp(-reach, reach), ..look }
 }
 
-/// Map that follows another.
 pub fn next_map(map: Map) -> Map {
     let at = Map::ALL.iter().position(|known| *known == map).unwrap_or(0);
     Map::ALL[(at + 1) % Map::ALL.len()]
 }
 
-/// Subject of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pictured {
-    /// The drape of a job.
     Drape(JobId),
     /// The body of a subject, from the front and from the side.
     Body(SubjectId),
@@ -107,26 +100,18 @@ pub enum Pictured {
     Preview(u64),
 }
 
-/// A request for a picture. With no cells, a body is only measured.
+/// Request for a picture; with no cells, a body is only measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PictureRequest {
-    /// Subject of the picture.
     pub of: Pictured,
-    /// Direction and enlargement of the view.
     pub look: Look,
-    /// Map that colours the cloth.
     pub map: Map,
-    /// Width of the pane, cells.
     pub columns: u16,
-    /// Height of the pane, cells.
     pub rows: u16,
 }
 
-/// A picture as the terminal shows it.
 pub enum Drawn {
-    /// Pixels, for a protocol for pictures.
     Pixels(Protocol),
-    /// Half blocks, each with two colours.
     Blocks(Blocks),
     /// Letters of growing density, for terminals without colours.
     Letters(Vec<String>),
@@ -142,13 +127,11 @@ impl std::fmt::Debug for Drawn {
     }
 }
 
-/// Encoder of pictures for the terminal.
 #[derive(Clone, Debug)]
 pub struct PictureEncoder {
     /// Protocol for pixels; `None` for half blocks or letters.
     picker: Option<Picker>,
     letters: bool,
-    /// Pixels of a cell.
     cell: FontSize,
 }
 

@@ -11,28 +11,23 @@ const LOOKED_AT: usize = 300;
 /// Greatest width of a column.
 const WIDEST: usize = 40;
 
-/// A column on the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Column {
     /// Width in columns of the terminal.
     pub width: usize,
-    /// True if the column holds numbers.
     pub is_number: bool,
 }
 
-/// An answer, with its order and its selected cell.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ResultTable {
     answer: SqlAnswer,
     /// Each row in lower case, for the filter.
     words: Vec<String>,
-    /// Widths and kinds of the columns.
     columns: Vec<Column>,
     /// Indices of the shown rows, in order.
     shown: Vec<usize>,
-    /// Index of the selected row among those shown.
+    /// Index among the rows shown.
     pub row: usize,
-    /// Index of the selected column.
     pub column: usize,
     /// Column that sorts, and true if it falls; `None` for the order of the query.
     pub order: Option<(usize, bool)>,
@@ -55,12 +50,10 @@ impl ResultTable {
         Self { shown: (0..answer.table.rows.len()).collect(), words, columns, answer, ..Self::default() }
     }
 
-    /// Names of the columns.
     pub fn names(&self) -> &[String] {
         &self.answer.table.columns
     }
 
-    /// Width and kind of a column.
     pub fn column_of(&self, k: usize) -> Column {
         self.columns[k]
     }
@@ -70,7 +63,6 @@ impl ResultTable {
         self.shown.len()
     }
 
-    /// Number of all rows.
     pub fn total(&self) -> usize {
         self.answer.table.rows.len()
     }
@@ -85,7 +77,6 @@ impl ResultTable {
         self.shown.get(row).map(|at| self.answer.table.rows[*at].as_slice())
     }
 
-    /// Filters and sorts the rows.
     pub fn arrange(&mut self, filter: &str) {
         let filter = filter.to_lowercase();
         self.shown = (0..self.words.len()).filter(|row| self.words[*row].contains(&filter)).collect();
@@ -113,7 +104,6 @@ impl ResultTable {
         self.arrange(filter);
     }
 
-    /// Moves the selection by some columns.
     pub fn sideways(&mut self, step: isize) {
         let last = self.columns.len().saturating_sub(1);
         self.column = self.column.saturating_add_signed(step).min(last);

@@ -7,7 +7,6 @@ use spec::bodies::Sex;
 use store::{JobProgress, JobRow, Status};
 use wardrobe::SubjectRow;
 
-/// Width of a text in columns.
 pub fn width(text: &str) -> usize {
     Span::raw(text).width()
 }
@@ -50,7 +49,6 @@ pub fn shortened(text: &str, columns: usize) -> String {
     short
 }
 
-/// Length in mm.
 pub fn mm(metres: f64) -> String {
     format!("{:.1}", metres * 1000.0)
 }
@@ -99,7 +97,6 @@ pub fn duration(ms: i64) -> String {
     }
 }
 
-/// Short name of a simulator.
 pub fn sim(simulator: Simulator) -> &'static str {
     match simulator {
         Simulator::Fem => "FEM",
@@ -107,7 +104,6 @@ pub fn sim(simulator: Simulator) -> &'static str {
     }
 }
 
-/// The sex of a subject.
 pub fn sex(subject: &SubjectRow) -> &'static str {
     match subject.measurements.sex {
         Sex::Male => "male",
@@ -115,7 +111,6 @@ pub fn sex(subject: &SubjectRow) -> &'static str {
     }
 }
 
-/// Status in words.
 pub fn status(status: Status) -> &'static str {
     match status {
         Status::NotConverged => "not at rest",
@@ -123,12 +118,10 @@ pub fn status(status: Status) -> &'static str {
     }
 }
 
-/// EI as lists show it.
 pub fn ei(value: f64) -> String {
     format!("{value:.4}")
 }
 
-/// Phase and share done of a running job.
 pub fn progress(progress: &JobProgress) -> String {
     format!("{} {:.0}%", left(&progress.phase, 5), progress.fraction * 100.0)
 }
@@ -192,7 +185,6 @@ fn resampled(values: &[f64], columns: usize) -> Vec<f64> {
     (1..=columns).map(|k| values[k * n / columns - 1]).collect()
 }
 
-/// Reason for the present status of a job, in a few words.
 pub fn why(job: &JobRow, paused: bool) -> String {
     let inside = job.inside();
     match job.status {
@@ -218,7 +210,6 @@ pub fn why(job: &JobRow, paused: bool) -> String {
     }
 }
 
-/// Zone of times with an offset from UTC in ms.
 pub fn zone(offset_ms: i64) -> String {
     let minutes = offset_ms / 60_000;
     let sign = if minutes < 0 { '−' } else { '+' };
@@ -248,7 +239,6 @@ pub fn wrapped(text: &str, columns: usize) -> Vec<String> {
     lines
 }
 
-/// Word in pieces of at most `columns` columns.
 fn broken(word: &str, columns: usize) -> Vec<String> {
     let mut pieces = vec![String::new()];
     for letter in word.chars() {

@@ -8,10 +8,8 @@ use ratatui::style::{Color, Modifier, Style};
 use fit::FitClass;
 use store::{FitCell, Status};
 
-/// Number of colours that the terminal shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colours {
-    /// No colour at all.
     None,
     /// The 16 colours of the terminal's own palette.
     Basic,
@@ -21,7 +19,6 @@ pub enum Colours {
     True,
 }
 
-/// Terminals with 16 colours.
 const BASIC: [&str; 6] = ["linux", "xterm", "screen", "vt220", "ansi", "xterm-16color"];
 
 impl Colours {
@@ -49,7 +46,6 @@ pub fn wants_ascii(env: &dyn Fn(&str) -> Option<String>) -> bool {
     env("TOILE_ASCII").is_some_and(|value| !value.is_empty()) || term == "dumb" || term.starts_with("vt")
 }
 
-/// Meaning of a colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// Right or finished.
@@ -62,14 +58,12 @@ pub enum Role {
     Busy,
     /// Border of the pane with the focus.
     Focus,
-    /// Less important.
     Dim,
     /// Selected, in the pane with the focus.
     Selected,
 }
 
 impl Role {
-    /// All roles.
     pub const ALL: [Self; 7] = [Self::Good, Self::Warn, Self::Bad, Self::Busy, Self::Focus, Self::Dim, Self::Selected];
 
     /// Name in the file of colours.
@@ -86,7 +80,6 @@ impl Role {
     }
 }
 
-/// Colours by meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Roles {
     /// Colours of roles, in the order of [`Role::ALL`]; `Reset` for a role that only weight shows.
@@ -103,14 +96,10 @@ impl Default for Roles {
     }
 }
 
-/// The styles of the workbench.
 #[derive(Clone, Copy, Debug)]
 pub struct Theme {
-    /// Number of colours that the terminal shows.
     pub colours: Colours,
-    /// True to show only ASCII.
     pub ascii: bool,
-    /// Colours by meaning.
     pub roles: Roles,
 }
 
@@ -142,27 +131,22 @@ impl Theme {
         self.of(role, Style::new(), Style::new())
     }
 
-    /// Style for right or finished.
     pub fn good(self) -> Style {
         self.plain(Role::Good)
     }
 
-    /// Style for worth a second look.
     pub fn warn(self) -> Style {
         self.plain(Role::Warn)
     }
 
-    /// Style for wrong or failed.
     pub fn bad(self) -> Style {
         self.plain(Role::Bad)
     }
 
-    /// Style for not finished yet.
     pub fn busy(self) -> Style {
         self.plain(Role::Busy)
     }
 
-    /// Style for less important.
     pub fn dim(self) -> Style {
         self.of(Role::Dim, Style::new(), Style::new().add_modifier(Modifier::DIM))
     }
@@ -172,7 +156,6 @@ impl Theme {
         Style::reset().patch(self.dim())
     }
 
-    /// Style for more important.
     pub fn bold(self) -> Style {
         Style::new().add_modifier(Modifier::BOLD)
     }
@@ -188,17 +171,14 @@ impl Theme {
         Style::new().add_modifier(Modifier::BOLD | Modifier::UNDERLINED)
     }
 
-    /// Style of a selection.
     pub fn selection(self, focused: bool) -> Style {
         if focused { self.selected() } else { self.marked() }
     }
 
-    /// Style of a pane's border.
     pub fn border(self, focused: bool) -> Style {
         if focused { self.plain(Role::Focus).add_modifier(Modifier::BOLD) } else { self.dim() }
     }
 
-    /// Style of a status.
     pub fn status(self, status: Status) -> Style {
         match status {
             Status::Done => self.good(),
@@ -228,7 +208,6 @@ impl Theme {
         self.shown(self.roles.seams[number % self.roles.seams.len()])
     }
 
-    /// True if the terminal has colours.
     pub fn has_colours(self) -> bool {
         self.colours != Colours::None
     }
@@ -285,7 +264,6 @@ fn indexed(colour: Color) -> Color {
     }
 }
 
-/// Nearest of the 16 colours.
 fn basic(colour: Color) -> Color {
     let wanted = match colour {
         Color::Rgb(r, g, b) => [r, g, b],
@@ -299,7 +277,6 @@ fn basic(colour: Color) -> Color {
     SIXTEEN.iter().min_by_key(|(_, to)| distance(to)).map_or(colour, |(near, _)| *near)
 }
 
-/// Glyph of a status.
 pub fn glyph(status: Status) -> &'static str {
     match status {
         Status::Queued => "…",

@@ -13,13 +13,12 @@ use toml::de::DeValue;
 use crate::config::{Entry, Problems};
 use crate::widgets::theme::{Role, Roles};
 
-/// Name of the file in the config folder.
+/// Name in the config folder.
 pub const FILE: &str = "theme.toml";
 
 /// Name of the entry with the colours of seams and sizes.
 const SEAMS: &str = "seams";
 
-/// Colours that are accepted.
 const ACCEPTED: &str = "accepted: black, red, green, yellow, blue, magenta, cyan, gray, dark-gray, light-red to light-cyan, \
      white, 0 to 255, \"#rrggbb\", or \"reset\" for the terminal's own";
 
@@ -45,14 +44,12 @@ pub fn taken(entries: &[Entry<'_>], problems: &mut Problems) -> Roles {
     roles
 }
 
-/// Reads a colour from a value.
 fn colour(value: &DeValue<'_>) -> Result<Color, String> {
     let number = value.as_integer().map(|number| number.as_str());
     let Some(text) = value.as_str().or(number) else { return Err(format!("{}; {ACCEPTED}", value.type_str())) };
     text.parse().map_err(|_| format!("no colour `{text}`; {ACCEPTED}"))
 }
 
-/// Reads a list of colours from a value.
 fn colours(value: &DeValue<'_>) -> Result<Vec<Color>, String> {
     match value.as_array() {
         Some(list) if !list.is_empty() => list.iter().map(|entry| colour(entry.get_ref())).collect(),

@@ -5,7 +5,6 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 /// Rows of a page of a list.
 const PAGE: isize = 10;
 
-/// True if a key is Ctrl-C.
 pub fn is_ctrl_c(event: &KeyEvent) -> bool {
     event.code == KeyCode::Char('c') && event.modifiers.contains(KeyModifiers::CONTROL)
 }

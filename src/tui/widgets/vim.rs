@@ -28,7 +28,6 @@ impl Editor {
         true
     }
 
-    /// Returns to normal mode.
     pub(super) fn end_insert(&mut self) {
         self.mode = Mode::Normal;
         self.cursor = self.before().max(self.line_start());

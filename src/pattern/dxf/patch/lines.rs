@@ -11,42 +11,36 @@ use super::sides::{DRAWN_M, Side, on_sides};
 use super::{Entity, Redraw, Spot, spots};
 use crate::dxf::units::Unit;
 
-/// Distance below which a point counts as at a vertex, m.
+/// Distance below which a point counts as at a vertex.
 const AT_VERTEX_M: f64 = 0.5e-3;
-/// Turning angle of an outline from which a curve point is a corner, radians: 30 degrees.
+/// Turning angle from which a curve point is a corner: 30 degrees.
 const CORNER_RAD: f64 = 0.52;
 /// Ratio of neighbouring sides below which the longer one is no part of a curve.
 const SHORTER: f64 = 0.25;
-/// Distance below which a point has not moved, m.
+/// Distance below which a point has not moved.
 const STILL_M: f64 = 1e-6;
-/// Flags of a polyline and of its vertices [DXF reference, POLYLINE, VERTEX].
+/// Flag of a polyline [DXF reference, POLYLINE, VERTEX].
 const CLOSED: i32 = 1;
 const FRAME_OF_SPLINE: i32 = 16;
-/// Group codes of the numbers of a vertex of LWPOLYLINE after its x: y, widths, bulge, identifier.
+/// Group codes of an LWPOLYLINE vertex after its x: y, widths, bulge, identifier.
 const OF_VERTEX: [i32; 5] = [20, 40, 41, 42, 91];
-/// Layers of notches.
 const NOTCHES: [&str; 5] = ["4", "80", "81", "82", "83"];
 
-/// Change of one piece.
 pub struct Redrawing<'s, 'a, 'r> {
     sheet: &'s mut Sheet<'a>,
     redraw: &'r Redraw<'r>,
     /// Metres in a unit of the file.
     scale: f64,
-    /// True if the file marks curve points.
     marks_curves: bool,
-    /// Sides of the drawn outlines.
     sides: Vec<Side>,
     /// Curve points to add, m.
     marks: Vec<V2>,
     departs_m: f64,
 }
 
-/// A drawn line with the tags of its vertices.
 struct Chain {
-    /// Vertices, in the unit of the file. Along a normal that points down, x is reversed.
+    /// In the unit of the file. Along a normal that points down, x is reversed.
     spots: Vec<Spot>,
-    /// Tags of each vertex.
     ranges: Vec<Range<usize>>,
     is_closed: bool,
     /// -1 if x is reversed.
@@ -59,7 +53,7 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
         Self { sheet, redraw, scale, marks_curves, sides: Vec::new(), marks: Vec::new(), departs_m: 0.0 }
     }
 
-    /// Changes the entities of the piece. Returns the greatest distance of an outline from where it is carried to, m.
+    /// Returns the greatest distance of an outline from where it is carried to, m.
     pub fn draw(mut self, entities: &[&Entity<'_>]) -> f64 {
         // Outlines come first: what lies on them stays on them.
         let (outlines, others): (Vec<&Entity<'_>>, Vec<&Entity<'_>>) =
@@ -87,7 +81,7 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
         self.departs_m
     }
 
-    /// True for a line that is cut, sewn, or tells how such a line runs.
+    /// True also for a line that tells how a cut or sewn line runs.
     fn is_outline(&self, entity: &Entity<'_>) -> bool {
         match (entity.kind, entity.layer) {
             ("LINE" | "POLYLINE" | "LWPOLYLINE", "1" | "14" | "84" | "87") => true,
@@ -109,7 +103,6 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
         on_sides(&self.sides, at).unwrap_or_else(|| (self.redraw.carried)(at))
     }
 
-    /// Sets a point, unless it stays.
     fn set(&mut self, spot: Spot, sense: f64, to: V2) {
         if (to - self.metres(spot, sense)).norm() > STILL_M {
             self.sheet.set(spot.x, sense * to.x / self.scale);
@@ -121,7 +114,6 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
         V2::new(sense * spot.at.x, spot.at.y) * self.scale
     }
 
-    /// Vertices of a line.
     fn chain(&self, entity: &Entity<'_>) -> Chain {
         let flag = |range: &Range<usize>, code: i32| {
             let tag = range.clone().find(|&tag| self.sheet.tags[tag].code == code);
@@ -156,7 +148,7 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
         }
     }
 
-    /// Changes an outline, and adds points to its straight sides that bend.
+    /// Adds points to straight sides that bend.
     fn outline(&mut self, entity: &Entity<'_>) {
         let chain = self.chain(entity);
         let points: Vec<V2> = chain.spots.iter().map(|spot| self.metres(*spot, chain.sense)).collect();
@@ -199,7 +191,7 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
         }
     }
 
-    /// True for a side along which the piece is cut or sewn. It is not where a quality curve is followed.
+    /// False where a quality curve is followed.
     fn is_sewn(&self, [from, to]: [V2; 2]) -> bool {
         let (middle, piece) = (from.lerp(&to, 0.5), self.redraw.piece);
         let lines = [Some(&piece.outline), piece.sew_line.as_ref()];
@@ -207,10 +199,10 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
     }
 
     /// True for a side that stands for a part of a curve. It is not divided: programs draw a smooth curve through the
-    /// points of a curve, which a point on a chord would flatten.
+    /// points, which a point on a chord would flatten.
     ///
-    /// An end of such a side is marked as curve point. The outline turns there, but not as at a corner, and the next side
-    /// is not much shorter: a curve has points where it bends.
+    /// An end of such a side is a curve point where the outline turns, but less than at a corner, and the next side is
+    /// not much shorter.
     fn is_chord(&self, points: &[V2], is_closed: bool, side: usize) -> bool {
         let n = points.len();
         let [from, to] = [points[side], points[(side + 1) % n]];
@@ -232,7 +224,7 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
         [(from, before), (to, after)].into_iter().any(|(at, beside)| is_marked(at) && is_bent(at, beside))
     }
 
-    /// Adds vertices to a polyline after one of its vertices.
+    /// Adds vertices to a polyline after `vertex`.
     fn divide(&mut self, chain: &Chain, vertex: usize, between: &[V2]) {
         let (spot, range) = (chain.spots[vertex], chain.ranges[vertex].clone());
         for point in between {
@@ -241,7 +233,7 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
         }
     }
 
-    /// Adds a LINE from each of some points to the next, and from the last of them to `last`.
+    /// Adds a LINE from each point to the next, and on to `last`.
     fn divide_line(&mut self, entity: &Entity<'_>, ends: &[Spot], between: &[V2], last: V2) {
         let [from, to] = ends else { return };
         for (k, start) in between.iter().enumerate() {
@@ -264,7 +256,7 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
         }
     }
 
-    /// Adds the noted curve points after the last one of the piece.
+    /// Adds them after the last curve point of the piece.
     fn mark_curves(&mut self, others: &[&Entity<'_>]) {
         let is_point = |entity: &&&Entity<'_>| entity.kind == "POINT";
         let own = others.iter().rev().find(|entity| is_point(entity) && entity.layer == "3");
@@ -278,14 +270,14 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
         }
     }
 
-    /// Tag and value of the bulge of a side of a polyline. `None` for a straight side.
+    /// Tag and value. `None` for a straight side.
     fn bulge(&self, chain: &Chain, side: usize) -> Option<(usize, f64)> {
         let tag = chain.ranges[side].clone().find(|&tag| self.sheet.tags[tag].code == 42)?;
         let bulge = self.sheet.number(tag);
         (bulge != 0.0).then_some((tag, bulge))
     }
 
-    /// Changes a bulge: the arc goes through the carried middle of the arc before.
+    /// The arc goes through the carried middle of the arc before.
     fn bend(&mut self, tag: usize, bulge: f64, [from, to]: [V2; 2], sense: f64) {
         let chord = to - from;
         let middle = from + chord * 0.5 + V2::new(chord.y, -chord.x) * (0.5 * bulge * sense);
@@ -298,7 +290,7 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
         }
     }
 
-    /// Changes an arc of an outline: it goes through its carried ends and middle.
+    /// The arc goes through its carried ends and middle.
     fn arc(&mut self, entity: &Entity<'_>) {
         let sense = self.chain(entity).sense;
         let tag = |code: i32| entity.head.clone().find(|&tag| self.sheet.tags[tag].code == code);
@@ -325,7 +317,7 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
         }
     }
 
-    /// Displacement of the middle of a line, rounded as the file rounds.
+    /// Rounded as the file rounds.
     fn shift_of_middle(&self, entity: &Entity<'_>) -> V2 {
         let chain = self.chain(entity);
         let (Some(first), Some(last)) = (chain.spots.first(), chain.spots.last()) else { return V2::zeros() };
@@ -333,12 +325,11 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
         self.rounded(self.place(middle) - middle)
     }
 
-    /// Displacement as the file rounds it, so that what is shifted keeps its direction to the last decimal.
+    /// Rounds as the file does, so that a shifted figure keeps its direction to the last decimal.
     fn rounded(&self, by: V2) -> V2 {
         by.map(|by| self.sheet.rounded(by / self.scale) * self.scale)
     }
 
-    /// Shifts all points of an entity.
     fn shift(&mut self, entity: &Entity<'_>, by: V2) {
         let chain = self.chain(entity);
         for spot in chain.spots {
@@ -375,7 +366,6 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
         }
     }
 
-    /// Carries the points of some group codes.
     fn carry(&mut self, entity: &Entity<'_>, codes: &[i32]) {
         let sense = if matches!(entity.kind, "CIRCLE" | "ARC") { self.chain(entity).sense } else { 1.0 };
         for spot in codes.iter().flat_map(|code| spots(self.sheet, entity.head.clone(), *code)).collect::<Vec<_>>() {
@@ -384,8 +374,7 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
         }
     }
 
-    /// Moves a text that tells the rule of a point with that point. Another text moves only if it would no longer lie
-    /// inside its piece.
+    /// Moves a text with the point whose rule it tells. Another text moves only if it would lie outside its piece.
     fn text(&mut self, entity: &Entity<'_>) {
         let Some(spot) = spots(self.sheet, entity.head.clone(), 10).into_iter().next() else { return };
         let at = self.metres(spot, 1.0);
@@ -411,7 +400,7 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
     }
 }
 
-/// Centre of the circle through three points. `None` if they lie on a line.
+/// `None` for points on a line.
 fn centre_through([a, b, c]: [V2; 3]) -> Option<V2> {
     let (u, v) = (b - a, c - a);
     let twice_area = 2.0 * u.perp(&v);

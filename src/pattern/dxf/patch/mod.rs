@@ -20,33 +20,29 @@ use super::units::Unit;
 use super::{DxfError, NO_BLOCK, is_layout};
 use crate::piece::Piece;
 
-/// Greatest difference between two changes of a block, m.
+/// Greatest difference between two changes of a block.
 const ALIKE_M: f64 = 0.05e-3;
-/// Distance below which a point counts as inside an outline, m.
+/// Distance below which a point counts as inside an outline.
 const NEAR_M: f64 = 1e-3;
 
-/// Change of a piece of a file.
 pub struct Redraw<'a> {
-    /// Piece as read from the file to sew.
+    /// As read from the file to sew.
     pub piece: &'a Piece,
-    /// Place of a point of the piece after the change. Both in metres, as the file draws the piece.
+    /// Place of a point after the change, in metres, as the file draws the piece.
     pub carried: &'a dyn Fn(V2) -> V2,
 }
 
-/// A file with changed coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patched {
-    /// Bytes of the file.
     pub bytes: Vec<u8>,
-    /// Greatest distance of a changed outline from where its points are carried to, m. It comes of curves, which keep
-    /// their number of points.
+    /// Greatest distance of an outline from where its points are carried to. It comes of curves, which keep their
+    /// points.
     pub departs_m: f64,
 }
 
-/// Changes pieces of a file. Coordinates of what moves change, in as many decimals as the file has, and at least 3 in
-/// millimetres; all else stays byte for byte. A straight side that bends by more than 0.2 mm gets as few points as it
-/// needs, each a curve point (layer 3) where the file marks such. Curves keep their points. `unit` overrides the unit of
-/// the file.
+/// Changes coordinates of what moves, in the decimals of the file and at least 3 in millimetres; all else stays byte
+/// for byte. A straight side that bends by more than 0.2 mm gets as few points as it needs, each a curve point (layer
+/// 3) where the file marks such. Curves keep their points. Fails where one block would change in two ways.
 pub fn patched(bytes: &[u8], file_name: &str, unit: Option<Unit>, redraws: &[Redraw<'_>]) -> Result<Patched, DxfError> {
     let unit = super::read(bytes, file_name, unit)?.unit;
     let tags = scan(bytes, file_name)?;
@@ -65,7 +61,7 @@ pub fn patched(bytes: &[u8], file_name: &str, unit: Option<Unit>, redraws: &[Red
     Ok(Patched { bytes: sheet.bytes(), departs_m })
 }
 
-/// True if two pieces are the same drawing of the file.
+/// True for the same drawing of the file.
 fn is_same(piece: &Piece, other: &Piece) -> bool {
     match (piece.beside.line, other.beside.line) {
         (Some(line), Some(of_other)) => line == of_other,
@@ -74,7 +70,6 @@ fn is_same(piece: &Piece, other: &Piece) -> bool {
     }
 }
 
-/// Refuses two different changes of one drawing.
 fn check_alike(file: &str, earlier: &Redraw<'_>, redraw: &Redraw<'_>) -> Result<(), DxfError> {
     let apart = |p: &V2| ((redraw.carried)(*p) - (earlier.carried)(*p)).norm();
     let apart_m = redraw.piece.outline.iter().map(apart).fold(0.0, f64::max);
@@ -90,23 +85,22 @@ fn check_alike(file: &str, earlier: &Redraw<'_>, redraw: &Redraw<'_>) -> Result<
     })
 }
 
-/// An entity of the sections BLOCKS and ENTITIES.
+/// An entity of BLOCKS or ENTITIES.
 pub(super) struct Entity<'a> {
-    /// Kind: `LINE`. A `POLYLINE` holds its vertices.
+    /// A `POLYLINE` holds its vertices.
     kind: &'a str,
     layer: &'a str,
-    /// Line number of the block that holds it. `None` outside all blocks.
+    /// Line number. `None` outside all blocks.
     block: Option<usize>,
     /// Tags of its first record.
     head: Range<usize>,
-    /// Tags of its vertices.
     vertices: Vec<Range<usize>>,
     /// Last tag of its last record.
     last: usize,
 }
 
 impl Entity<'_> {
-    /// True if the entity is part of a piece. Outside all blocks it is if it lies on the piece.
+    /// Outside all blocks: true if it lies on the piece.
     fn is_of(&self, sheet: &Sheet<'_>, unit: Unit, piece: &Piece) -> bool {
         if self.block.is_some() || piece.beside.line.is_some() {
             return self.block == piece.beside.line;
@@ -122,18 +116,17 @@ impl Entity<'_> {
     }
 }
 
-/// A point in the tags of a record.
 #[derive(Clone, Copy, Debug)]
 struct Spot {
-    /// Index of the tag with x.
+    /// Index of the tag.
     x: usize,
-    /// Index of the tag with y.
+    /// Index of the tag.
     y: usize,
-    /// Position, in the unit of the file.
+    /// In the unit of the file.
     at: V2,
 }
 
-/// Points with the group codes `code` and `code + 10` in some tags.
+/// Points with the group codes `code` and `code + 10`.
 fn spots(sheet: &Sheet<'_>, range: Range<usize>, code: i32) -> Vec<Spot> {
     let mut spots = Vec::new();
     let mut x = None;
@@ -149,7 +142,6 @@ fn spots(sheet: &Sheet<'_>, range: Range<usize>, code: i32) -> Vec<Spot> {
     spots
 }
 
-/// Entities of the blocks, and of those outside all blocks.
 fn entities<'a>(tags: &[Tag<'a>]) -> Vec<Entity<'a>> {
     let starts: Vec<usize> = (0..tags.len()).filter(|&tag| tags[tag].code == 0).collect();
     let mut found: Vec<Entity<'_>> = Vec::new();
@@ -182,7 +174,7 @@ fn entities<'a>(tags: &[Tag<'a>]) -> Vec<Entity<'a>> {
     found
 }
 
-/// Value as text, trimmed. Empty if it is not ASCII.
+/// Trimmed. Empty if it is not ASCII.
 fn keyword_of<'a>(tag: Tag<'a>) -> &'a str {
     std::str::from_utf8(tag.value.trim_ascii()).unwrap_or("")
 }

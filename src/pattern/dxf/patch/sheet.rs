@@ -6,14 +6,13 @@ use std::ops::Range;
 use crate::dxf::tags::Tag;
 use crate::dxf::units::Unit;
 
-/// Decimals that a coordinate has at least, in millimetres: a hundredth of what scissors follow.
+/// Least decimals of a coordinate in millimetres: a hundredth of what scissors follow.
 const LEAST_DECIMALS_MM: usize = 3;
-/// Greatest number of decimals: more are the rounding of binary numbers.
+/// More are the rounding of binary numbers.
 const MOST_DECIMALS: usize = 12;
 /// Group codes that number a record or its owner. A copy has none: each number occurs once in a file.
 const NUMBERS: [i32; 3] = [5, 105, 330];
 
-/// Form of the coordinates of a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Form {
     decimals: usize,
@@ -22,8 +21,7 @@ struct Form {
 }
 
 impl Form {
-    /// Form of the coordinates in some tags: as many decimals as the number with most of them, and at least
-    /// [`LEAST_DECIMALS_MM`] in millimetres.
+    /// Takes the most decimals of any number, and at least [`LEAST_DECIMALS_MM`] in millimetres.
     fn of(tags: &[Tag<'_>], unit: Unit) -> Self {
         let decimals = |tag: &Tag<'_>| {
             let text = tag.keyword();
@@ -40,7 +38,6 @@ impl Form {
         Self { decimals: most.clamp(least, MOST_DECIMALS), is_trimmed }
     }
 
-    /// Text of a number.
     fn text(self, value: f64) -> String {
         let mut text = format!("{value:.*}", self.decimals);
         if self.is_trimmed {
@@ -56,35 +53,32 @@ impl Form {
 
 /// A DXF file with changes.
 pub struct Sheet<'a> {
-    /// Tags of the file.
     pub tags: Vec<Tag<'a>>,
     lines: Vec<&'a [u8]>,
     form: Form,
-    /// Changed values, by the line of the file from 0.
+    /// By the line of the file from 0.
     values: BTreeMap<usize, String>,
-    /// Added lines, by the line of the file after which they stand.
+    /// By the line of the file after which they stand.
     added: BTreeMap<usize, Vec<u8>>,
 }
 
 impl<'a> Sheet<'a> {
-    /// Sheet of a file without changes. `tags` are those of the file.
     pub fn new(bytes: &'a [u8], tags: Vec<Tag<'a>>, unit: Unit) -> Self {
         let lines = bytes.split_inclusive(|&byte| byte == b'\n').collect();
         let form = Form::of(&tags, unit);
         Self { tags, lines, form, values: BTreeMap::new(), added: BTreeMap::new() }
     }
 
-    /// Number of a tag, in the unit of the file. 0 for what is no number.
+    /// In the unit of the file. 0 for what is no number.
     pub fn number(&self, tag: usize) -> f64 {
         self.tags[tag].keyword().parse().unwrap_or(0.0)
     }
 
-    /// Number as the file has it after rounding.
     pub fn rounded(&self, value: f64) -> f64 {
         self.form.text(value).parse().unwrap_or(value)
     }
 
-    /// Changes the number of a tag, unless it stays the same in the decimals of the file.
+    /// Changes a number, unless it stays the same in the decimals of the file.
     pub fn set(&mut self, tag: usize, value: f64) {
         let half = 0.5 * 0.1_f64.powi(self.form.decimals as i32);
         if (value - self.number(tag)).abs() >= half {
@@ -92,13 +86,12 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// Changes the integer of a tag.
     pub fn set_count(&mut self, tag: usize, count: usize) {
         self.values.insert(self.tags[tag].line - 1, count.to_string());
     }
 
-    /// Adds a copy of some tags after the tag `after`, with the numbers of some of them changed. Handles and what
-    /// `is_left_out` are not copied.
+    /// Adds a copy of some tags after `after`, with some numbers changed. Handles and what `is_left_out` are not
+    /// copied.
     pub fn copy(
         &mut self,
         tags: Range<usize>,
@@ -121,7 +114,7 @@ impl<'a> Sheet<'a> {
         self.added.entry(self.tags[after].line - 1).or_default().extend(copy);
     }
 
-    /// Adds a record of a kind on a layer at a place, in the unit of the file, after the tag `after`.
+    /// Adds a record at a place, in the unit of the file, after the tag `after`.
     pub fn add_point(&mut self, kind: &str, layer: &str, [x, y]: [f64; 2], after: usize) {
         let line = self.lines[self.tags[after].line - 1];
         let end = if line.ends_with(b"\r\n") { "\r\n" } else { "\n" };
@@ -131,7 +124,6 @@ impl<'a> Sheet<'a> {
         self.added.entry(self.tags[after].line - 1).or_default().extend(text.into_bytes());
     }
 
-    /// Bytes of the file with its changes.
     pub fn bytes(&self) -> Vec<u8> {
         let mut bytes = Vec::new();
         for (number, line) in self.lines.iter().enumerate() {
@@ -145,7 +137,7 @@ impl<'a> Sheet<'a> {
     }
 }
 
-/// Line with another value, and with its blanks and its end as before.
+/// Keeps the blanks and the end of the line.
 fn replaced(line: &[u8], value: &str) -> Vec<u8> {
     let after = line.trim_ascii_start();
     let before = &line[..line.len() - after.len()];

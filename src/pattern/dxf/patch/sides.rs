@@ -3,30 +3,29 @@
 use geom::V2;
 use geom::polyline::segment_distance;
 
-/// Greatest distance of a drawn side from the line that it is carried to, m: what scissors follow.
+/// Greatest distance of a drawn side from the line that it is carried to: what scissors follow.
 pub const DRAWN_M: f64 = 0.2e-3;
-/// Distance from one carried point of a side to the next, m.
+/// Distance from one carried point of a side to the next.
 const STEP_M: f64 = 5e-3;
-/// Greatest number of these steps on a side.
 const MOST_STEPS: f64 = 200.0;
-/// Distance below which a point counts as on a side, m: the rounding of files.
+/// Distance below which a point counts as on a side: the rounding of files.
 const ON_SIDE_M: f64 = 0.05e-3;
-/// Number of halvings by which the points of a side are spread evenly.
+/// Halvings by which the points of a side are spread evenly.
 const HALVINGS: usize = 12;
 
-/// A side of a drawn line, straight before the change.
+/// Side that is straight before the change.
 #[derive(Clone, Debug)]
 pub struct Side {
     ends: [V2; 2],
-    /// Points of the changed side, the ends too, each with its share of the side before.
+    /// Points after the change with both ends, each with its share of the side before.
     pub drawn: Vec<(f64, V2)>,
-    /// Greatest distance of the changed side from the line that it is carried to, m.
+    /// Greatest distance from the line that it is carried to.
     pub departs_m: f64,
 }
 
 impl Side {
-    /// Side between two points that go to `places`, with the others carried. If `is_divided`, it gets as few points as keep
-    /// it within [`DRAWN_M`] of the carried line.
+    /// Side whose ends go to `places`. If `is_divided`, it gets as few points as keep it within [`DRAWN_M`] of the
+    /// carried line.
     pub fn new(ends: [V2; 2], places: [V2; 2], carried: impl Fn(V2) -> V2, is_divided: bool) -> Self {
         let steps = ((ends[1] - ends[0]).norm() / STEP_M).ceil().clamp(2.0, MOST_STEPS) as usize;
         let share = |k: usize| k as f64 / steps as f64;
@@ -38,18 +37,17 @@ impl Side {
         Self { ends, drawn, departs_m }
     }
 
-    /// True if another side has the same ends, in either order.
+    /// True for the same ends in either order.
     pub fn is_drawn_again_by(&self, other: &Self) -> bool {
         let are_near = |[a, b]: [V2; 2]| (self.ends[0] - a).norm().max((self.ends[1] - b).norm()) < ON_SIDE_M;
         are_near(other.ends) || are_near([other.ends[1], other.ends[0]])
     }
 
-    /// Points of the changed side between its ends.
     pub fn between(&self) -> impl Iterator<Item = V2> + '_ {
         self.drawn[1..self.drawn.len() - 1].iter().map(|(_, point)| *point)
     }
 
-    /// Point on the changed side for one on the side before. Its distance from the side stays.
+    /// Maps a point by the side before. Its distance from the side stays.
     fn at(&self, point: V2) -> V2 {
         let along = self.ends[1] - self.ends[0];
         let share = ((point - self.ends[0]).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
@@ -60,19 +58,19 @@ impl Side {
     }
 }
 
-/// Place of a point that lies on one of some sides. `None` for a point off all sides.
+/// Place of a point after the change. `None` for a point off all sides.
 pub fn on_sides(sides: &[Side], point: V2) -> Option<V2> {
     let distance = |side: &Side| segment_distance(&side.ends[0], &side.ends[1], &point);
     let nearest = sides.iter().map(|side| (distance(side), side)).min_by(|a, b| a.0.total_cmp(&b.0));
     nearest.filter(|(distance_m, _)| *distance_m < ON_SIDE_M).map(|(_, side)| side.at(point))
 }
 
-/// Greatest distance of the points of a line between two of them from the straight way, m.
+/// Greatest distance of the points between two from the straight way, m.
 fn departs(line: &[V2], from: usize, to: usize) -> f64 {
     line[from..=to].iter().map(|p| segment_distance(&line[from], &line[to], p)).fold(0.0, f64::max)
 }
 
-/// Fewest points of a line that keep within a distance of all of it, by their indices: each as far on as possible.
+/// Indices of the fewest points that keep within a distance of the line: each as far on as possible.
 fn fewest(line: &[V2], within_m: f64) -> Vec<usize> {
     let last = line.len() - 1;
     let mut kept = vec![0];
@@ -85,8 +83,7 @@ fn fewest(line: &[V2], within_m: f64) -> Vec<usize> {
     kept
 }
 
-/// The same number of points as the [`fewest`] within [`DRAWN_M`], by the least distance for which so many suffice: they
-/// are spread evenly.
+/// As many points as [`fewest`] takes within [`DRAWN_M`], by the least distance for which so many suffice.
 fn evenly(line: &[V2]) -> Vec<usize> {
     let mut best = fewest(line, DRAWN_M);
     let (mut low, mut high) = (0.0, DRAWN_M);

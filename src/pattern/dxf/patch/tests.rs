@@ -12,7 +12,7 @@ use geom::units::mm;
 
 const INCH_M: f64 = 0.0254;
 
-/// Half of a front in inches, its fold along y = 0 and its grain along x, in a size.
+/// In inches, its fold along y = 0 and its grain along x.
 fn half_front(size: &str, wider: f64) -> String {
     let corners = [(0.0, 0.0), (24.0, 0.0), (24.0, 4.0), (16.0, 9.0 + wider), (0.0, 9.5 + wider)];
     let curve = [(20.0, 4.5), (17.0, 5.5)];
@@ -48,7 +48,7 @@ fn half_front(size: &str, wider: f64) -> String {
     parts.concat()
 }
 
-/// A nest of two sizes with texts in its head, in a code page of its own.
+/// Two sizes with texts in the head, in a code page of its own.
 fn nest() -> Vec<u8> {
     let texts = [
         "Style Name: TEE",
@@ -94,7 +94,6 @@ fn redrawn_by(bytes: &[u8], size: &str, carried: &dyn Fn(V2) -> V2) -> Patched {
     patched(bytes, "nest.dxf", None, &redraws).expect("it is changed")
 }
 
-/// Lines of a file that are no coordinates.
 fn without_coordinates(bytes: &[u8]) -> Vec<&[u8]> {
     let lines: Vec<&[u8]> = bytes.split_inclusive(|&byte| byte == b'\n').collect();
     let is_coordinate = |code: &[u8]| matches!(code.trim_ascii(), b"10" | b"20" | b"11" | b"21");
@@ -166,7 +165,7 @@ fn a_block_does_not_change_in_two_ways() {
     assert!(told.contains("block `FRONT-S`: found two changes, 1.00 mm apart"), "{told}");
 }
 
-/// Lines of every kind that programs draw outlines with: the arc of a circle goes through where its middle goes.
+/// The arc of a circle goes through where its middle goes.
 #[test]
 fn arcs_bulges_and_lines_change() {
     let file = |boundary: &str| {
@@ -201,8 +200,7 @@ fn arcs_bulges_and_lines_change() {
     check(lines, 0);
 }
 
-/// A drafted T-shirt as some programs would write it: in inches, the grain along x, the front half of it on the fold,
-/// two sizes in a file.
+/// A T-shirt in inches, the grain along x, the front half of it on the fold, two sizes in a file.
 fn turned_tee() -> Vec<u8> {
     let half = |piece: Piece| {
         let on_left = |points: &[V2]| -> Vec<V2> { points.iter().copied().filter(|p| p.x > -1e-9).collect() };

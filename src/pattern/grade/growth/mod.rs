@@ -29,63 +29,56 @@ use crate::style::{EdgeRef, Style};
 use geom::V2;
 use geom::units::{from_mm, mm};
 
-/// Amount by which each handle is tried, m.
+/// Amount by which each handle is tried.
 const TRIED_M: f64 = 5e-3;
-/// Shares of it, tried in turn where a handle cannot move so far.
+/// Shares of it, tried where a handle cannot move so far.
 const SHARES: [f64; 3] = [1.0, 0.4, 0.1];
-/// Displacement of one point by which its effect on the seams is found, m.
+/// Displacement of one point by which its effect on the seams is found.
 const NUDGE_M: f64 = 0.5e-3;
-/// Last digit of a displacement in a table, m: that of genuine tables.
+/// Last digit of a displacement in a table, as in genuine ones.
 const DIGIT_M: f64 = 1e-5;
-/// Greatest change of the difference between the sides of a seam, besides what its ease and gathers grow by, m.
+/// Greatest change of the difference between the sides of a seam, besides what its ease and gathers grow by.
 const SEAM_M: f64 = 0.5e-3;
-/// Change above which the points of one size are corrected, m: below it, rules stay even.
+/// Change above which a size is corrected: below it, rules stay even.
 const CLOSE_M: f64 = 0.4e-3;
-/// Greatest number of corrections of a size.
+/// Limit for each size.
 const CORRECTIONS: usize = 4;
-/// Weight of a point of front, back or leg in a correction, relative to what is sewn on: a sleeve is fitted to its
-/// armhole, and a band to its waist.
+/// Weight of a point of front, back or leg in a correction: a sleeve is fitted to its armhole, and a band to its waist.
 const TRUNK: f64 = 0.5;
-/// Greatest distance from a cut line to its sew line, m. Points that near are corrected alike.
+/// Greatest distance from a cut line to its sew line. Points that near are corrected alike.
 const ALLOWANCE_M: f64 = 40e-3;
 /// Handles that set the width of a side between its corners.
 const BETWEEN: [Handle; 4] = [Handle::Waist, Handle::Hip, Handle::Thigh, Handle::Knee];
-/// Least displacement of such a place by one of these handles, relative to its amount.
+/// Least displacement of such a place by a handle, relative to its amount.
 const LEAST_SHARE: f64 = 0.2;
 /// Least ratio of the displacement of such a place to that of the corners of its side.
 const ABOVE_CORNERS: f64 = 1.25;
-/// Distance along which such places of two handles are one, m.
+/// Distance along which such places of two handles are one.
 const ONE_PLACE_M: f64 = 40e-3;
 
-/// Error of a pattern that cannot grow.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum GrowthError {
     /// The pattern cannot be changed, or is no style to begin with.
     #[error(transparent)]
     Handle(#[from] HandleError),
-    /// Pieces and seam file make no style.
     #[error(transparent)]
     Style(#[from] StyleError),
-    /// A piece cannot be graded.
     #[error("piece `{piece}`: {found}; accepted: sizes nearer to the sample size")]
     Piece {
-        /// Name of the piece.
         piece: String,
-        /// Description of what was found.
         found: String,
     },
-    /// The sides of a seam come apart in a size.
+    /// The sides come apart in a size.
     #[error(
         "seam `{seam}`: its sides come apart by {off_mm:.1} mm when {by}; accepted: {within_mm} mm, besides what ease and gathers grow by"
     )]
     Seam {
-        /// Name of the seam.
         seam: String,
-        /// Change of the difference of its sides, mm.
+        /// Change of the difference of its sides.
         off_mm: f64,
         /// Handles with their amounts.
         by: String,
-        /// Accepted change, mm.
+        /// Accepted change.
         within_mm: f64,
     },
 }
@@ -95,41 +88,39 @@ pub enum GrowthError {
 pub struct Growth {
     file: String,
     seams: Vec<u8>,
-    /// Entries of the seam file, whose tolerance lets sides come apart.
+    /// Has a tolerance that lets sides come apart.
     loose: SeamFile,
-    /// Greatest accepted difference of the sides of a seam beside its ease, m.
+    /// Greatest difference of the sides of a seam beside its ease.
     tolerance_m: f64,
-    /// Pieces of the sample size, with a grade point at every cardinal point.
+    /// Sample size, with a grade point at every cardinal point.
     pieces: Vec<Piece>,
     points: Vec<Cardinal>,
-    /// Corners that the seam file refers to by their places, as vertices of the piece of that index, by the identifier of
-    /// the piece. They are the same vertices in every size.
+    /// Corners that the seam file refers to by their places, by piece identifier: index of the piece and its vertices,
+    /// the same in every size.
     corners: BTreeMap<String, (usize, Vec<usize>)>,
     style: Style,
-    /// Lengths of both sides of each seam of the sample size, m.
+    /// Both sides of each seam of the sample size.
     lengths_m: Vec<[f64; 2]>,
     /// Displacement of every cardinal point by each handle, m per m.
     fields: Vec<(Handle, Vec<V2>)>,
-    /// Effect of displacing the points on the seams.
     levers: Levers,
-    /// Handles that cannot move, with the reason.
     refused: Vec<(Handle, HandleError)>,
 }
 
 /// Effect of the displacement of sewn points on the seams.
 #[derive(Clone, Debug, Default)]
 struct Levers {
-    /// Number of the point and axis of each column.
+    /// Point and axis.
     columns: Vec<(usize, usize)>,
-    /// Weight of each column.
+    /// By column.
     weights: Vec<f64>,
-    /// Change of each seam, by seam and then column, m/m, times the weight.
+    /// Change by seam and then column, m/m, times the weight.
     rows: Vec<Vec<f64>>,
 }
 
 impl Growth {
-    /// Growth of pieces as drawn by some handles. `file` is the name of the seam file for messages. Handles that the
-    /// pattern has and that cannot move are [`Self::refused`].
+    /// `file` is the name of the seam file for messages. Handles that the pattern has and that cannot move are
+    /// [`Self::refused`].
     pub fn of(pieces: &[Piece], seam_bytes: &[u8], file: &str, handles: &[Handle]) -> Result<Self, GrowthError> {
         let redrawn = Redrawn::of(pieces, seam_bytes, file, &[])?;
         let mut pieces = redrawn.pieces();
@@ -168,22 +159,21 @@ impl Growth {
         Ok(growth)
     }
 
-    /// The sample size.
+    /// Sample size.
     pub fn style(&self) -> &Style {
         &self.style
     }
 
-    /// Handles that move, in their order.
+    /// Those that move, in their order.
     pub fn handles(&self) -> impl Iterator<Item = Handle> + '_ {
         self.fields.iter().map(|(handle, _)| *handle)
     }
 
-    /// Handles that the pattern has and that cannot move, with the reason.
+    /// Handles that the pattern has and that cannot move.
     pub fn refused(&self) -> &[(Handle, HandleError)] {
         &self.refused
     }
 
-    /// Finds the cardinal points and their displacement by each handle.
     fn try_handles(&mut self, handles: &[Handle]) -> Result<(), GrowthError> {
         let mut points: Vec<Cardinal> =
             self.pieces.iter().enumerate().flat_map(|(number, piece)| cardinal::points(number, piece)).collect();
@@ -248,7 +238,7 @@ impl Growth {
         Ok(())
     }
 
-    /// Corners that the edges of the seam file refer to by their places, by the identifier of the piece.
+    /// Corners that the seam file refers to by their places, by piece identifier.
     fn corners_of_seams(&self) -> BTreeMap<String, Vec<Cardinal>> {
         let mut corners = BTreeMap::new();
         for (name, entry) in self.loose.piece.iter().filter(|(_, entry)| !entry.corners_at.is_empty()) {
@@ -262,7 +252,7 @@ impl Growth {
         corners
     }
 
-    /// Index of the piece of some corners, and their vertices.
+    /// Piece and vertices of some corners.
     fn vertices(&self, corners: &[Cardinal]) -> Option<(usize, Vec<usize>)> {
         let piece = corners.first()?.piece;
         let outline = self.pieces[piece].seam_outline();
@@ -273,7 +263,7 @@ impl Growth {
         Some((piece, corners.iter().map(nearest).collect()))
     }
 
-    /// Places of the corners on displaced pieces, by the identifier of the piece.
+    /// Places of the corners on displaced pieces, by piece identifier.
     fn places(&self, pieces: &[Piece]) -> BTreeMap<String, Vec<[f64; 2]>> {
         let of_piece = |(name, (piece, vertices)): (&String, &(usize, Vec<usize>))| {
             (name.clone(), shares(pieces[*piece].seam_outline(), vertices))
@@ -281,7 +271,7 @@ impl Growth {
         self.corners.iter().map(of_piece).collect()
     }
 
-    /// Displacement of the grade points of all pieces by a handle, m per m.
+    /// Displacement of the grade points of all pieces, m per m.
     fn tried(&self, probe: &[Piece], handle: Handle) -> Result<Vec<Vec<V2>>, HandleError> {
         let moved = |amount_m: f64| {
             Redrawn::of(probe, &self.seams, &self.file, &[(handle, amount_m)]).map(|redrawn| redrawn.pieces())
@@ -303,7 +293,7 @@ impl Growth {
         refused.map_or(Ok(Vec::new()), Err)
     }
 
-    /// Pieces whose cardinal points are displaced, m. Other pieces than `only` stay as they are.
+    /// Displaces the cardinal points of `only`, or of all pieces, m.
     fn displaced(&self, steps: &[V2], only: Option<usize>) -> Result<Vec<Piece>, GrowthError> {
         let rules = steps.iter().enumerate().map(|(k, step)| (k as u32 + 1, vec![V2::zeros(), *step])).collect();
         let sizes = ["sample", "size"].map(str::to_owned).to_vec();
@@ -324,7 +314,7 @@ impl Growth {
         GradeTable { file: self.file.clone(), sizes: Vec::new(), sample, unit: Unit::Mm, rules }
     }
 
-    /// Style of displaced pieces, whose seams may come apart.
+    /// The seams may come apart.
     fn loosely(&self, steps: &[V2], only: Option<usize>) -> Result<Style, GrowthError> {
         let pieces = self.displaced(steps, only)?;
         let mut entries = self.loose.clone();
@@ -334,7 +324,7 @@ impl Growth {
         Ok(Style::of(&pieces, &entries, &self.file)?)
     }
 
-    /// Change of the difference between the sides of each seam, besides what its ease grows by, m.
+    /// Change of the difference between the sides of each seam, besides what its ease grows by.
     fn off_m(&self, style: &Style) -> Vec<f64> {
         let off = |([a, b], [a_before, b_before]): (&[f64; 2], &[f64; 2])| {
             (a - b) - (a_before - b_before) * b / b_before.max(f64::MIN_POSITIVE)
@@ -342,7 +332,6 @@ impl Growth {
         lengths_m(style).iter().zip(&self.lengths_m).map(off).collect()
     }
 
-    /// Effect of each sewn point on the seams.
     fn levers(&self) -> Result<Levers, GrowthError> {
         let trunk = self.trunk();
         let mut levers = Levers { rows: vec![Vec::new(); self.lengths_m.len()], ..Levers::default() };
@@ -370,7 +359,7 @@ impl Growth {
             .collect()
     }
 
-    /// Smallest displacement of the points that changes the seams by `-off_m`.
+    /// Smallest displacement that changes the seams by `-off_m`.
     fn correction(&self, off_m: &[f64]) -> Vec<V2> {
         let Levers { columns, weights, rows } = &self.levers;
         let mut steps = vec![V2::zeros(); self.points.len()];
@@ -391,7 +380,7 @@ impl Growth {
         steps
     }
 
-    /// Corrects the displacement by one handle so that seams keep to first order, and lets notches follow the outline.
+    /// Corrects one handle so that seams keep to first order, and lets notches follow the outline.
     fn keep_seams(&mut self, number: usize) -> Result<(), GrowthError> {
         let scaled = |by_m: f64| -> Vec<V2> { self.fields[number].1.iter().map(|step| step * by_m).collect() };
         let [less, more] = [-TRIED_M, TRIED_M].map(|by_m| self.loosely(&scaled(by_m), None));
@@ -419,8 +408,8 @@ impl Growth {
         }
     }
 
-    /// Displacement of the cardinal points by amounts of handles, m, as tables write it. Seams are kept: where the sum
-    /// of the handles parts the sides of one, its points are corrected for this size.
+    /// Displacement by amounts of handles, m, as tables write it. Where the sum of the handles parts the sides of a
+    /// seam, its points are corrected for this size.
     fn steps(&self, amounts: &[(Handle, f64)]) -> Result<(Vec<V2>, Style), GrowthError> {
         let mut exact = vec![V2::zeros(); self.points.len()];
         for (handle, amount_m) in amounts {
@@ -457,13 +446,13 @@ impl Growth {
         }
     }
 
-    /// Style that amounts of handles, m, make.
+    /// Amounts are in m. Fails where a piece cannot be graded so far or a seam comes apart.
     pub fn sized(&self, amounts: &[(Handle, f64)]) -> Result<Style, GrowthError> {
         Ok(self.steps(amounts)?.1)
     }
 
-    /// Amounts of the handles that change points of measure as told, m: each by the amount of the handle that is named
-    /// for it, and all others not at all. A handle without a point of measure keeps its amount.
+    /// Amounts that change points of measure as told, m: each by the handle that is named for it, and all others not at
+    /// all. A handle without a point of measure keeps its amount.
     pub fn aimed(&self, told: &[(Handle, f64)]) -> Result<Vec<(Handle, f64)>, GrowthError> {
         let told: Vec<(Handle, f64)> =
             told.iter().copied().filter(|(handle, _)| self.handles().any(|h| h == *handle)).collect();
@@ -494,20 +483,20 @@ impl Growth {
     }
 }
 
-/// Numbers of grade points, counted by piece.
+/// Numbers grade points by piece.
 struct Places {
     taken: Vec<usize>,
 }
 
 impl Places {
-    /// Piece and number of its next grade point.
+    /// Piece and number.
     fn next(&mut self, piece: usize) -> [usize; 2] {
         self.taken[piece] += 1;
         [piece, self.taken[piece] - 1]
     }
 }
 
-/// Lengths of both sides of every seam, m.
+/// Both sides of every seam.
 fn lengths_m(style: &Style) -> Vec<[f64; 2]> {
     let length = |side: &[EdgeRef]| side.iter().map(|edge| style.edge(*edge).line.length()).sum();
     style.seams.iter().map(|seam| [length(&seam.a), length(&seam.b)]).collect()
@@ -524,8 +513,7 @@ fn together(points: &[Cardinal], field: &mut [V2]) {
     }
 }
 
-/// Places between corners where a handle sets a width: where it moves a side most, if more than its corners. As numbers
-/// of the side and of its place.
+/// Side and place where a handle sets a width between corners: where it moves the side most, if more than its corners.
 fn between_corners(
     sides: &[cardinal::Side],
     places: &[Vec<[usize; 2]>],

@@ -13,19 +13,17 @@ use toml_edit::{DocumentMut, InlineTable, Value, value};
 /// Sizes of a pattern as the sample size and its rules.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Graded {
-    /// Pieces of the sample size with grade points.
+    /// Sample size with grade points.
     pub pieces: Vec<Piece>,
-    /// Rules of all sizes.
     pub table: GradeTable,
     /// Bytes of the seam file, with the ease of each size.
     pub seams: Vec<u8>,
-    /// Style of each size.
+    /// One for each size.
     pub styles: Vec<Style>,
 }
 
 impl Growth {
-    /// Sizes as rules of the sample size. `sizes` are names with amounts of handles, m, by which they differ from the
-    /// pattern at hand; `sample` is the index of the sample size.
+    /// `sizes` are names with amounts, m, by which they differ from the pattern at hand; `sample` is an index.
     pub fn graded(&self, sizes: &[(String, Vec<(Handle, f64)>)], sample: usize) -> Result<Graded, GrowthError> {
         let own = &sizes[sample].1;
         let at = self.at(&self.steps(own)?.0)?;
@@ -64,8 +62,8 @@ impl Growth {
         Ok(Graded { pieces, table, seams, styles })
     }
 
-    /// The pattern displaced by some steps, from which it grows on. A curve that follows is divided by its length, which
-    /// is another there, so that seams are kept anew.
+    /// Pattern displaced by some steps. A curve that follows is divided by its length, which is another there, so that
+    /// seams are kept anew.
     fn at(&self, steps: &[V2]) -> Result<Self, GrowthError> {
         let mut at = Self { pieces: self.displaced(steps, None)?, style: self.loosely(steps, None)?, ..self.clone() };
         for (piece, before) in at.pieces.iter_mut().zip(&self.pieces) {
@@ -79,8 +77,8 @@ impl Growth {
         Ok(at)
     }
 
-    /// Bytes of the seam file, made on the sample size, with the places of corners on its pieces. Sizes of a nest have
-    /// the same vertices, so that the corners of all sizes are found from there.
+    /// Seam file with the places of corners in the sample size. Sizes of a nest have the same vertices, so that the
+    /// corners of all sizes are found from there.
     fn with_corners(&self, sample: &str) -> Result<Vec<u8>, GrowthError> {
         let seams = handle::with_corners(&self.seams, &self.file, &self.places(&self.pieces))?;
         let mut document = self.document(&seams)?;
@@ -90,14 +88,14 @@ impl Growth {
         Ok(document.to_string().into_bytes())
     }
 
-    /// A seam file as text that keeps its form.
+    /// Keeps the form of the text.
     fn document(&self, seams: &[u8]) -> Result<DocumentMut, GrowthError> {
         let syntax = |reason: String| StyleError::Syntax { file: self.file.clone(), reason };
         let text = std::str::from_utf8(seams).map_err(|error| syntax(error.to_string()))?;
         Ok(text.parse().map_err(|error: toml_edit::TomlError| syntax(error.to_string()))?)
     }
 
-    /// Bytes of a seam file with the ease of each size, for seams whose sides differ.
+    /// Adds the ease of each size for seams whose sides differ.
     fn with_eases(&self, seams: &[u8], styles: &[(&str, &Style)]) -> Result<Vec<u8>, GrowthError> {
         let mut document = self.document(seams)?;
         let lengths: Vec<(&str, Vec<[f64; 2]>)> =

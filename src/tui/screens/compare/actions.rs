@@ -19,7 +19,6 @@ pub fn to_compare(state: &State) -> Vec<JobId> {
     pair.into_iter().map(|job| job.id).collect()
 }
 
-/// Runs in the comparison, as read from the database.
 pub fn compared(state: &State) -> &[Compared] {
     state.data.as_ref().map_or(&[], |data| &data.compared)
 }
@@ -73,7 +72,6 @@ fn tell_marks(state: &mut State) {
     });
 }
 
-/// Takes all marks away.
 pub fn unmark_runs(state: &mut State) {
     state.say(format!("{} runs were selected, none is now", state.marks.len()));
     state.marks.clear();

@@ -17,11 +17,9 @@ const MARGIN: f64 = 0.01;
 /// One measurement of all compared runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComparisonRow {
-    /// Number of the measurement in the style.
     pub no: u32,
-    /// Name of the measurement in the style.
     pub name: String,
-    /// Pattern length in the first run with the measurement, m.
+    /// Pattern length in the first run with the measurement.
     pub l2d_m: f64,
     /// Chi of each run; `None` for a run without the measurement.
     pub chi: Vec<Option<f64>>,
@@ -34,7 +32,6 @@ impl ComparisonRow {
         format!("#{} {} {} {}", self.no, self.name, text::mm(self.l2d_m), chi.join(" "))
     }
 
-    /// True if the runs differ in the measurement.
     pub fn differs(&self) -> bool {
         let first = self.chi[0];
         self.chi.iter().any(|chi| match (first, chi) {

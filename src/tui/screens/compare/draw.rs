@@ -154,7 +154,6 @@ impl CompareScreen {
     }
 }
 
-/// The panes: table, conclusions, and a picture for each run.
 struct Panes {
     table: Option<Rect>,
     verdict: Option<Rect>,
@@ -238,7 +237,6 @@ fn title(runs: &[Compared]) -> String {
 /// Widths of columns; the name takes what the runs leave.
 struct Columns {
     name: usize,
-    /// Runs that are shown.
     runs: Range<usize>,
     delta: bool,
 }

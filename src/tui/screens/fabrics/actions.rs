@@ -10,7 +10,6 @@ use spec::FABRIC_NUMBERS;
 use wardrobe::{FabricRow, Mode, Part};
 
 impl FabricsScreen {
-    /// Fabrics that pass the filter, in the order of the list.
     pub fn shown<'a>(&self, state: &'a State) -> Vec<&'a FabricRow> {
         let Some(data) = &state.data else { return vec![] };
         let filter = state.filter_of(Screen::Fabrics);
@@ -30,18 +29,16 @@ impl FabricsScreen {
         fabrics
     }
 
-    /// Index of the selected fabric in the list; 0 where the chosen fabric is not shown.
+    /// Returns 0 where the chosen fabric is not shown.
     pub fn index_in(&self, shown: &[&FabricRow]) -> usize {
         shown.iter().position(|row| Some(&row.fabric.name) == self.chosen.as_ref()).unwrap_or(0)
     }
 
-    /// The selected fabric.
     pub fn selected<'a>(&self, state: &'a State) -> Option<&'a FabricRow> {
         let shown = self.shown(state);
         shown.get(self.index_in(&shown)).copied()
     }
 
-    /// Moves the selection in the list.
     pub fn go_in_list(&mut self, state: &State, movement: Movement) {
         let shown = self.shown(state);
         let next = shown.get(movement.from(self.index_in(&shown), shown.len()));
@@ -57,7 +54,6 @@ impl FabricsScreen {
         }
     }
 
-    /// Opens the form of the selected fabric.
     pub fn edit(&self, state: &mut State) {
         if catalogue::may_change(state, Part::Fabric) {
             catalogue::fill_in(state, self.form(state, Mode::Edit), "no fabric is selected");
@@ -94,7 +90,7 @@ pub fn marks(row: &FabricRow) -> String {
     [mark(row.is_own, '+'), mark(law.is_some(), 's'), mark(is_coupled, 'c'), mark(row.is_class(), '~')].iter().collect()
 }
 
-/// Number of a fabric as the list shows it, by its index in [`FABRIC_SHOWN`].
+/// Number as the list shows it, by its index in [`FABRIC_SHOWN`].
 pub fn number(row: &FabricRow, k: usize) -> String {
     let value = FABRIC_NUMBERS[FABRIC_SHOWN[k]].get(&row.fabric);
     value.map_or("—".to_owned(), |value| in_four(value * FACTORS[k]))

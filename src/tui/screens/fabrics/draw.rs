@@ -28,7 +28,6 @@ const MARKS: usize = 5;
 const LEAST_NAME: usize = 14;
 /// Columns of quantities that follow from the numbers, where they fit: heading and width.
 const FOLLOWS: [(&str, usize); 2] = [("bends mm", 12), ("of weight", 11)];
-/// Legend of the list.
 const LEGEND: &str = "warp weft shear N/m, bending µN m  + own  s stiffens  c coupled  ~ class";
 
 /// Number of lines in the table of a fabric: its numbers, and two bending lengths.
@@ -56,7 +55,6 @@ fn panes(area: Rect) -> [Rect; 3] {
     [list, table, facts]
 }
 
-/// Number of table lines that fit.
 pub fn table_rows(area: Rect) -> usize {
     usize::from(panes(area)[1].height).saturating_sub(3)
 }

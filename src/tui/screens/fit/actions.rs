@@ -43,13 +43,12 @@ pub fn quantities_shown(state: &State) -> Vec<Quantity> {
     rows
 }
 
-/// True if the text of a row passes the filter.
 pub fn passes(state: &State, text: &str) -> bool {
     text.to_lowercase().contains(&state.filter_of(Screen::Fit))
 }
 
 impl FitScreen {
-    /// Cross sections of the shown results; `None` while they are cut.
+    /// Returns `None` while the sections are cut.
     pub fn sections(&self, state: &State) -> Option<&Sections> {
         let jobs = jobs_of(worn(state)?);
         self.cut.as_ref().filter(|cut| cut.request == jobs).map(|cut| &cut.outcome)
@@ -69,7 +68,6 @@ impl FitScreen {
         chosen.or(worst).or(known.first().copied())
     }
 
-    /// Index of the shown level in `levels`.
     pub fn level_in(&self, state: &State, levels: &[&str]) -> Option<usize> {
         self.level(state).and_then(|level| levels.iter().position(|other| is_same(other, level)))
     }
@@ -81,7 +79,6 @@ impl FitScreen {
         sections.iter().find(|section| is_same(&section.level, level)).or(first)
     }
 
-    /// Shows the section at the next level, or at the previous one.
     pub fn step_level(&mut self, state: &mut State, step: isize) {
         let sections = self.known_sections(state);
         let shown = self.section(state);
@@ -96,7 +93,6 @@ impl FitScreen {
         }
     }
 
-    /// Reason why the shown level has no section.
     pub fn why_no_section(&self, state: &State) -> String {
         match (worn(state), self.sections(state)) {
             (None, _) => "reading…".to_owned(),
@@ -110,7 +106,6 @@ impl FitScreen {
         }
     }
 
-    /// Moves the selection in the part that has the focus.
     pub fn go_in_view(&mut self, state: &mut State, movement: Movement) {
         match (self.view, movement) {
             (View::Card, _) => {
@@ -129,7 +124,7 @@ impl FitScreen {
         }
     }
 
-    /// Moves the focus to the next or previous part. From the alteration, moves back to the part under it.
+    /// Moves the focus; from the alteration, moves back to the part under it.
     pub fn step_view(&mut self, step: isize) {
         if std::mem::take(&mut self.alter.is_open) {
             return;
@@ -153,7 +148,6 @@ impl FitScreen {
     }
 }
 
-/// Jobs of the sizes that have a drape.
 fn jobs_of(worn: &GarmentWorn) -> Vec<JobId> {
     worn.sizes.iter().map(|size| size.job).collect()
 }

@@ -22,7 +22,6 @@ const SIGN: usize = 3;
 const ROOMY: usize = 62;
 
 impl Alter {
-    /// Title of the pane: garment, size and subject.
     pub fn title(&self) -> String {
         match &self.asked {
             Some(asked) => format!("what to change · {} {} for {}", asked.garment, asked.size, asked.subject),
@@ -42,7 +41,6 @@ impl Alter {
         Some(mark)
     }
 
-    /// Number of lines that do not fit into a pane.
     pub fn hidden(&self, state: &State, pane: Rect) -> usize {
         let (columns, rows) = inner(pane);
         self.lines(state, columns, rows).len().saturating_sub(rows)
@@ -187,7 +185,6 @@ fn levels(state: &State, found: &Alteration, columns: usize) -> Vec<Line<'static
     told
 }
 
-/// Ease in `columns` columns, with its sign.
 fn ease(theme: Theme, altered: &AlteredLevel, mm: f64, columns: usize) -> Span<'static> {
     let sits = altered.sits(mm);
     let (sign, style) = sign(theme, sits);

@@ -35,7 +35,7 @@ impl Alter {
         }
     }
 
-    /// Alteration that was found, shown or not.
+    /// Alteration, shown or not.
     pub fn found(&self) -> Option<&Alteration> {
         self.answer.as_ref()?.as_deref().ok()
     }
@@ -49,13 +49,11 @@ impl Alter {
         to_alter(state).map(|request| self.ask(request))
     }
 
-    /// Forgets the present alteration and requests another.
     fn ask(&mut self, request: AlterRequest) -> Effect {
         *self = Self { is_open: true, asked: Some(request.clone()), ..Self::default() };
         Effect::Alter(request)
     }
 
-    /// Requests the alteration of the next larger or smaller size.
     pub fn step_size(&mut self, state: &mut State, step: isize) -> Vec<Effect> {
         let asked = self.asked.clone().filter(|_| self.is_open);
         let Some((asked, grid)) = asked.zip(state.grid()) else {
@@ -71,7 +69,6 @@ impl Alter {
         }
     }
 
-    /// Requests the drape of the altered pattern.
     pub fn drape(&mut self, state: &mut State) -> Vec<Effect> {
         let Self { is_open, asked, answer, draping, .. } = &*self;
         let why_not = match (asked, answer) {
@@ -90,14 +87,13 @@ impl Alter {
         state.reply(why_not)
     }
 
-    /// Expected duration of the drape, in words.
     pub fn how_long(&self, state: &State) -> String {
         self.drape_ms(state).map_or("that may take minutes".to_owned(), |ms| {
             format!("the study's drape took {}, this one about as long", duration(ms))
         })
     }
 
-    /// Duration of the study's own drape of this size, ms; without one, the longest of the garment.
+    /// Duration of the study's own drape of this size; without one, the longest of the garment.
     fn drape_ms(&self, state: &State) -> Option<i64> {
         let asked = self.asked.as_ref()?;
         let is_drape = |job: &&JobRow| job.simulator == Simulator::Fem && job.status.has_result();
@@ -107,7 +103,6 @@ impl Alter {
         same.or(of_garment.filter_map(|job| job.wall_ms).max())
     }
 
-    /// Asks for the folder for the altered pattern.
     pub fn write(&self, state: &mut State) {
         match self.found().filter(|_| self.is_open) {
             Some(found) => {
@@ -177,7 +172,6 @@ fn is_looked_at(state: &State, asked: &AlterRequest) -> bool {
     to_alter(state).is_none_or(|request| request.is_for_same(asked))
 }
 
-/// Folder that is proposed for an altered pattern.
 fn folder(found: &Alteration) -> String {
     format!("altered/{}", file_part(&format!("{}_{}_{}", found.garment, found.size, found.subject)))
 }

@@ -13,7 +13,6 @@ use crate::widgets::text::{self, left, right, whole, words, wrapped};
 use crate::widgets::theme::Theme;
 use results::{FitCard, GarmentWorn, LevelSits, Sits, SizeSits};
 
-/// Meaning of the signs.
 pub const LEGEND: &str = " ▼ tight  ▲ loose  ! smaller than the body ";
 /// Columns for body and target.
 const BODY: usize = 6;
@@ -23,7 +22,6 @@ const LONG: usize = 20;
 const SHORT: usize = 18;
 const SIGNS: usize = 9;
 
-/// Title of the pane: garment, subject with its number, intended fit.
 pub fn title(state: &State) -> String {
     let Some(grid) = state.grid() else { return "fit".to_owned() };
     let at = state.place.subject;
@@ -38,7 +36,6 @@ pub fn title(state: &State) -> String {
 }
 
 impl FitScreen {
-    /// Lines of the card, at most `lines` of them.
     pub fn card_lines(&self, state: &State, columns: usize, lines: usize, focused: bool) -> Vec<Line<'static>> {
         let Some(worn) = worn(state) else { return vec![Line::raw("reading…")] };
         let card = &worn.card;
@@ -63,7 +60,6 @@ impl FitScreen {
         told
     }
 
-    /// Places of the levels, for a jump.
     pub fn card_targets(&self, state: &State, inner: Rect) -> Vec<Target> {
         let Some(worn) = worn(state).filter(|worn| !worn.card.sizes.is_empty()) else { return vec![] };
         let (columns, lines) = (usize::from(inner.width), usize::from(inner.height));
@@ -138,7 +134,6 @@ impl<'a> Columns<'a> {
     }
 }
 
-/// Name of a level, whole or short.
 pub fn name(level: &str, is_short: bool) -> String {
     let name = words(level);
     if is_short { name.replace("across ", "") } else { name }
@@ -171,12 +166,10 @@ pub fn headed(theme: Theme, card: &FitCard, size: &str) -> (String, Style) {
     }
 }
 
-/// True if a size is the one to wear.
 pub fn is_to_wear(card: &FitCard, size: &str) -> bool {
     card.to_wear().is_some_and(|wear| wear.size == size)
 }
 
-/// Colour of a size's line and column.
 pub fn colour(theme: Theme, card: &FitCard, size: &str) -> Style {
     let number = card.sizes.iter().position(|other| other.size == size).unwrap_or(0);
     Style::new().fg(theme.lettered(number))
@@ -213,7 +206,6 @@ pub fn target(theme: Theme, target_mm: Option<[f64; 2]>) -> String {
     })
 }
 
-/// Ease, sign and words of a size at a level.
 fn cell(theme: Theme, sits: &LevelSits, columns: usize) -> Span<'static> {
     let (sign, style) = sign(theme, sits.sits());
     let ease = format!("{:+.0}", sits.ease_mm).replace('-', "−");
@@ -228,7 +220,6 @@ fn cell(theme: Theme, sits: &LevelSits, columns: usize) -> Span<'static> {
     Span::styled(left(format!("{} {sign} {told}{mark}", right(&ease, 5)).trim_end(), columns), style)
 }
 
-/// Sign and colour of an ease relative to its target.
 pub fn sign(theme: Theme, sits: Option<Sits>) -> (&'static str, Style) {
     match sits {
         None => (" ", theme.dim()),

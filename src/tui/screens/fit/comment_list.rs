@@ -32,7 +32,6 @@ const TALL: u16 = 12;
 const DETAIL: u16 = 9;
 
 impl Comments {
-    /// Draws the list, and the selected comment where it fits.
     pub fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
         let [list, detail] = panes(area);
         let block = pane(state.theme, self.title(state), focused)
@@ -45,13 +44,11 @@ impl Comments {
         }
     }
 
-    /// Places of the comments, for a jump.
     pub fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
         let shown = self.shown(state);
         jump::rows(View::Comments as usize, jump::inside(panes(area)[0]), 1, shown.len(), self.index_in(&shown))
     }
 
-    /// Title of the list: fitting, round, size, signature.
     fn title(&self, state: &State) -> String {
         let Some((grid, subject)) = state.grid().zip(wearer(state)) else { return "comments".to_owned() };
         if self.is_whole {
@@ -90,7 +87,6 @@ impl Comments {
         told
     }
 
-    /// Draws the selected comment in full.
     fn draw_selected(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
         let one = self.selected(state);
         let title = one
@@ -108,7 +104,6 @@ fn panes(area: Rect) -> [Rect; 2] {
     Layout::vertical([Constraint::Fill(1), Constraint::Length(below)]).areas(area)
 }
 
-/// Columns that fit.
 struct Widths {
     fitting: usize,
     seen: usize,
@@ -129,7 +124,6 @@ impl Widths {
         Self { fitting, seen, owner, words: room }
     }
 
-    /// Line of the cells fitting, number, severity, place, words, owner, status.
     fn line(&self, [fitting, number, severity, seen, words, owner, status]: [&str; 7]) -> String {
         // Each column ends in a space.
         let cell = |text: &str, columns: usize| match columns {

@@ -33,18 +33,15 @@ impl Comments {
         data.comments.iter().filter(|one| self.is_whole || is_own(one)).collect()
     }
 
-    /// Index of the selected comment in the list.
     pub fn index_in(&self, shown: &[&Comment]) -> usize {
         shown.iter().position(|one| Some(&key(one)) == self.chosen.as_ref()).unwrap_or(0)
     }
 
-    /// The selected comment.
     pub fn selected<'a>(&self, state: &'a State) -> Option<&'a Comment> {
         let shown = self.shown(state);
         shown.get(self.index_in(&shown)).copied()
     }
 
-    /// Moves the selection.
     pub fn go(&mut self, state: &State, movement: Movement) {
         let shown = self.shown(state);
         self.chosen = shown.get(movement.from(self.index_in(&shown), shown.len())).map(|one| key(one));
@@ -68,7 +65,6 @@ impl Comments {
         }
     }
 
-    /// Selected comment, or the reason why there is none to change.
     fn to_change<'a>(&self, state: &'a State) -> Result<(FittingOf, &'a Comment), &'static str> {
         self.fitting(state).zip(self.selected(state)).ok_or("no comment is selected")
     }
@@ -167,7 +163,7 @@ impl Comments {
 }
 
 impl FitScreen {
-    /// Carries out an action on comments; `None` for another action.
+    /// Returns `None` for an action that is not about comments.
     pub fn act_on_comments(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {
         let changes = [
             Action::EditComment,
@@ -212,7 +208,6 @@ fn key(one: &Comment) -> (String, String, i64) {
     (one.garment.clone(), one.subject.clone(), one.number)
 }
 
-/// Last round of a garment on a subject.
 pub fn last_round<'a>(state: &'a State, garment: &str, subject: &str) -> Option<&'a Round> {
     state.data.as_ref()?.rounds.iter().find(|round| round.garment == garment && round.subject == subject)
 }
@@ -221,7 +216,6 @@ fn round_of<'a>(state: &'a State, of: &FittingOf) -> Option<&'a Round> {
     last_round(state, &of.garment, &of.subject)
 }
 
-/// Status of a comment in words.
 pub fn status(one: &Comment) -> String {
     match (one.status, one.met_in) {
         (Status::Met, Some(round)) => format!("met in {round}"),

@@ -98,7 +98,6 @@ impl Draw for FitScreen {
 }
 
 impl FitScreen {
-    /// Parts that fit, with their places.
     fn parts(&self, area: Rect, state: &State) -> Vec<(View, Rect)> {
         let view = self.view;
         if !has_drape(state) {
@@ -120,7 +119,6 @@ impl FitScreen {
         vec![section, (if view == other { other } else { View::Card }, left)]
     }
 
-    /// Number of lines of the alteration that do not fit.
     pub fn hidden_lines(&self, state: &State) -> usize {
         self.alter.hidden(state, alteration_panes(state.body(), state).0)
     }
@@ -164,12 +162,10 @@ fn has_drape(state: &State) -> bool {
     worn(state).is_none_or(|worn| !worn.sizes.is_empty())
 }
 
-/// Panes of card and section side by side.
 fn beside(area: Rect) -> [Rect; 2] {
     Layout::horizontal([Constraint::Length(CARD.min(area.width - SECTION)), Constraint::Fill(1)]).areas(area)
 }
 
-/// Panes of the alteration and, where it fits, of the section.
 fn alteration_panes(area: Rect, state: &State) -> (Rect, Option<Rect>) {
     if area.width < WIDE || !has_drape(state) {
         return (area, None);

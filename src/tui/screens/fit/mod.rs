@@ -34,7 +34,6 @@ const fn hints(next: &'static str) -> [(&'static str, &'static str); 7] {
     ]
 }
 
-/// Keys with their meanings while an alteration is shown.
 const ALTER_HINTS: [(&str, &str); 8] = [
     ("d", "drape"),
     ("w", "write"),
@@ -46,7 +45,6 @@ const ALTER_HINTS: [(&str, &str); 8] = [
     (":", "command"),
 ];
 
-/// Keys with their meanings while the comments have the focus.
 const COMMENT_HINTS: [(&str, &str); 9] = [
     ("↵", "edit"),
     ("i", "add"),

@@ -3,10 +3,9 @@
 use crate::widgets::text::{whole, words};
 use results::{FoldLine, SizeWorn};
 
-/// A quantity in all sizes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Quantity {
-    /// Name of the quantity; lengths are in mm.
+    /// Name; lengths are in mm.
     pub name: String,
     /// Value in each size; `None` where it is not measured.
     pub cells: Vec<Option<String>>,
@@ -62,14 +61,12 @@ pub fn quantities(sizes: &[SizeWorn]) -> Vec<Quantity> {
     rows.found
 }
 
-/// Rows under construction.
 struct Rows<'a> {
     sizes: &'a [SizeWorn],
     found: Vec<Quantity>,
 }
 
 impl Rows<'_> {
-    /// Adds a quantity that any size has.
     fn add(&mut self, name: &str, cell: impl Fn(&SizeWorn) -> Option<String>) {
         let cells: Vec<Option<String>> = self.sizes.iter().map(cell).collect();
         if cells.iter().any(Option::is_some) {
@@ -78,7 +75,6 @@ impl Rows<'_> {
     }
 }
 
-/// Names that occur in any size, in order.
 fn names(sizes: &[SizeWorn], names_of: fn(&SizeWorn) -> Vec<&str>) -> Vec<&str> {
     let mut found = vec![];
     for name in sizes.iter().flat_map(names_of) {

@@ -15,7 +15,6 @@ use crate::widgets::lists::pane;
 use crate::widgets::text::{left, right, whole, words};
 use results::{CrossSection, CutCloth, CutLine, FitCard};
 
-/// Legend of the view, in full and short.
 const LEGEND: [&str; 2] = [" front up, the subject's right on the right ", " front up, right on the right "];
 /// Columns for the key of the lines, and for each of its parts: sample, name, three gaps.
 const KEY: u16 = 33;
@@ -34,7 +33,6 @@ const TRUNK: [&str; 4] = ["chest", "underbust", "waist", "hip"];
 const FILL: usize = 4;
 
 impl FitScreen {
-    /// Draws the section, or the reason why there is none.
     pub fn draw_section(&self, frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
         let section = self.section(state);
         let title = match (section, self.level(state)) {
@@ -63,7 +61,6 @@ impl FitScreen {
     }
 }
 
-/// Dash and style of a size's line.
 fn pen(state: &State, card: &FitCard, size: &str) -> (Dash, Style) {
     let number = card.sizes.iter().position(|other| other.size == size).unwrap_or(0);
     let dash = if is_to_wear(card, size) { WHOLE } else { DASHES[number % DASHES.len()] };
@@ -92,7 +89,6 @@ fn key(state: &State, section: &CrossSection, card: &FitCard) -> Vec<Line<'stati
     told
 }
 
-/// Sample of a line, for the key.
 fn sample(dash: Dash, style: Style) -> Span<'static> {
     let mut dots = Dots::new(SAMPLE, 1);
     dots.line(&[[0.0, 2.0], [2.0 * SAMPLE as f64, 2.0]], dash, style);
@@ -100,7 +96,7 @@ fn sample(dash: Dash, style: Style) -> Span<'static> {
     Span::styled(left(&line.to_string(), SAMPLE), style)
 }
 
-/// Lines with body and cloth; the size to wear is drawn last, on top.
+/// Draws the size to wear last, on top.
 fn outlines(state: &State, section: &CrossSection, card: &FitCard, area: Rect) -> Vec<Line<'static>> {
     let mut dots = Dots::new(usize::from(area.width), usize::from(area.height));
     let Some(scale) = Scale::fit(section, dots.size()) else { return vec![] };
@@ -159,7 +155,6 @@ impl Scale {
     }
 }
 
-/// Fills an outline with sparse dots.
 fn fill(dots: &mut Dots, outline: &[[f64; 2]], style: Style) {
     let [width, height] = dots.size();
     for y in (0..height).step_by(FILL) {

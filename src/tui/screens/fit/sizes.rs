@@ -10,14 +10,12 @@ use crate::widgets::lists::{first_shown, listed};
 use crate::widgets::text::{self, left, shortened};
 use results::GarmentWorn;
 
-/// Legend of the numbers.
 pub const LEGEND: &str = " mm  → from flat to worn ";
 /// Columns for a size.
 const SIZE: usize = 17;
 /// Fewest and most columns for the name of a quantity.
 const NAME: [usize; 2] = [12, 24];
 
-/// Title of the pane: garment, subject, simulator.
 pub fn title(state: &State) -> String {
     let Some(worn) = worn(state) else { return "sizes".to_owned() };
     let simulator = worn.simulator.map_or(String::new(), |simulator| format!(" · {}", text::sim(simulator)));
@@ -25,7 +23,6 @@ pub fn title(state: &State) -> String {
 }
 
 impl FitScreen {
-    /// Lines of the comparison that fit.
     pub fn size_lines(&self, state: &State, columns: usize, lines: usize, focused: bool) -> Vec<Line<'static>> {
         let Some(worn) = worn(state) else { return vec![Line::raw("reading…")] };
         let name = columns.saturating_sub(worn.sizes.len() * SIZE).clamp(NAME[0], NAME[1]);

@@ -15,18 +15,15 @@ use store::owner::Runner;
 use store::{JobId, JobRow, Status};
 
 impl JobsScreen {
-    /// Jobs that pass the filter, in the order of the list.
     pub fn shown<'a>(&self, state: &'a State) -> Vec<&'a JobRow> {
         let Some(data) = &state.data else { return vec![] };
         self.rows().iter().filter_map(|row| data.jobs.get(*row)).collect()
     }
 
-    /// Numbers of these jobs.
     pub fn shown_ids(&self, state: &State) -> Vec<JobId> {
         self.shown(state).iter().map(|job| job.id).collect()
     }
 
-    /// Filters and sorts the jobs.
     pub fn arrange(&mut self, state: &State) {
         let Some(data) = &state.data else { return };
         let is_paused = state.study().is_some_and(|study| study.paused);
@@ -49,7 +46,6 @@ impl JobsScreen {
         stored.or_else(seen).unwrap_or_default()
     }
 
-    /// Moves the selection in the list of jobs.
     pub fn go_in_list(&self, state: &mut State, movement: Movement) {
         let jobs = self.shown_ids(state);
         let at = jobs.iter().position(|id| Some(*id) == state.focus.job);
@@ -59,7 +55,6 @@ impl JobsScreen {
         }
     }
 
-    /// Scrolls the log.
     pub fn go_in_log(&mut self, state: &State, movement: Movement) {
         let lines = state.detail().map_or(0, |detail| detail.log.len());
         let from_top = lines.saturating_sub(1 + self.log_up);
@@ -169,12 +164,10 @@ impl JobsScreen {
     }
 }
 
-/// Message where there is no job to act on.
 fn nothing(rest: &str) -> String {
     format!("no job is selected here.{rest}")
 }
 
-/// Queues all failed jobs of the study again.
 pub fn retry_failed(state: &mut State) -> Vec<Effect> {
     let study = state.focus.study.as_deref().or(state.study().map(|study| study.name.as_str()));
     let jobs = state.data.iter().flat_map(|data| &data.jobs);

@@ -170,7 +170,6 @@ impl JobsScreen {
     }
 }
 
-/// The panes: table and log.
 fn panes(area: Rect) -> [Rect; 2] {
     let log_height = (area.height / 3).clamp(7, 16);
     Layout::vertical([Constraint::Fill(1), Constraint::Length(log_height)]).areas(area)
@@ -186,7 +185,6 @@ const WHY: usize = 24;
 /// Width of phase and percentage, in characters.
 const PROGRESS: usize = 10;
 
-/// Widths of the columns that depend on contents and room.
 struct Columns {
     id: usize,
     garment: usize,
@@ -216,7 +214,6 @@ impl Columns {
     }
 }
 
-/// Width of the longest number of a job, in characters.
 fn longest_id(jobs: &[&JobRow]) -> usize {
     jobs.iter().map(|job| job.id.0).max().unwrap_or(0).to_string().len().max(4)
 }

@@ -11,7 +11,6 @@ use store::{JobId, JobRow, Status};
 /// Most steps of a running job that are kept for its curves.
 const MAX_TRACE: usize = 4096;
 
-/// Order of the list.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum JobOrder {
     /// By number, as they were queued.
@@ -26,7 +25,6 @@ pub enum JobOrder {
 }
 
 impl JobOrder {
-    /// Order after this one, for the key that sorts.
     pub fn next(self) -> Self {
         match self {
             Self::Number => Self::Status,
@@ -46,12 +44,9 @@ struct Arranged {
     rows: Vec<usize>,
 }
 
-/// The Jobs screen.
 #[derive(Default)]
 pub struct JobsScreen {
-    /// Jobs that are shown, in order.
     arranged: Arranged,
-    /// Order of the list.
     pub order: Order<JobOrder>,
     /// Lines by which the log is scrolled up from its end.
     pub log_up: usize,

@@ -11,12 +11,10 @@ use crate::widgets::text::{self, chi_bar, chi_mark, ease_mm, left, mm, right, wr
 use crate::widgets::theme::sign;
 use store::{ChiRow, FitCell, MetricsRow};
 
-/// Legend of the marks after names.
 pub const LEGEND: &str = "○ girth  ~ free edge  = controlled";
 /// Columns for number, two lengths, chi, and gaps.
 const FIXED: usize = 3 + 7 + 7 + 6 + 1;
 
-/// Widths of the columns that depend on contents and room.
 struct Columns {
     name: usize,
     marks: usize,
@@ -145,7 +143,6 @@ const NAMES: [&str; 19] = [
     "cached",
 ];
 
-/// Selected measurement, with the quantities of table and metrics.
 pub fn explained(state: &State) -> Selected {
     let rows = rows(state);
     let Some(row) = rows.get(state.measurements.row) else { return Selected::new(String::new(), &NAMES, &[]) };
@@ -171,7 +168,6 @@ pub fn provenance(state: &State) -> Vec<(&'static str, String)> {
 const NAME_COLUMNS: usize = 9;
 const FACT_COLUMNS: usize = 21;
 
-/// Metrics of a result, with names.
 fn facts(m: &MetricsRow) -> Vec<(&'static str, String)> {
     vec![
         ("EI", format!("{:.4}", m.ei)),
@@ -188,7 +184,6 @@ fn facts(m: &MetricsRow) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// Line with a name and a value.
 pub fn fact(name: &str, value: &str, columns: usize) -> Line<'static> {
     Line::raw(text::shortened(&format!("{}{value}", left(name, NAME_COLUMNS)), columns))
 }

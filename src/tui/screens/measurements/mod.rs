@@ -14,12 +14,10 @@ pub fn rows(state: &State) -> Vec<&ChiRow> {
     state.detail().map_or(vec![], |detail| state.measurements.rows(detail, &filter))
 }
 
-/// Moves the selection in the table.
 pub fn go(state: &mut State, movement: Movement) {
     state.measurements.row = movement.from(state.measurements.row, rows(state).len());
 }
 
-/// Keeps the selected row inside the table.
 pub fn clamp(state: &mut State) {
     state.measurements.row = state.measurements.row.min(rows(state).len().saturating_sub(1));
 }

@@ -5,7 +5,6 @@ use crate::screens::order::Order;
 use crate::widgets::text::mm;
 use store::ChiRow;
 
-/// Order of the table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum ChiOrder {
     /// By number in the style.
@@ -15,19 +14,14 @@ pub enum ChiOrder {
     Error,
 }
 
-/// Stage, order and selected row of the table of measurements.
 #[derive(Debug, Default)]
 pub struct Measurements {
-    /// Order of the table.
     pub order: Order<ChiOrder>,
-    /// Index of the selected row.
     pub row: usize,
-    /// Stage that was chosen.
     pub stage: Option<String>,
 }
 
 impl Measurements {
-    /// Changes to the next order.
     pub fn sort(&mut self) {
         self.order.by = match self.order.by {
             ChiOrder::Number => ChiOrder::Error,

@@ -15,7 +15,7 @@ use results::Map;
 use store::Status;
 
 impl Pictures {
-    /// Carries out an action on pictures. Returns false for any other action.
+    /// Returns false for an action that is not about pictures.
     pub fn act(&mut self, action: Action) -> bool {
         match action {
             Action::NextView => self.look = picture::next_view(self.look),
@@ -72,7 +72,6 @@ impl Pictures {
     }
 }
 
-/// Drape of the selected job with its pane, where there are both.
 pub fn drape_in(state: &State, pane: Option<Rect>) -> Vec<(Pictured, Rect)> {
     let job = state.job().filter(|job| job.status.has_result()).map(|job| Pictured::Drape(job.id));
     job.zip(pane).into_iter().collect()

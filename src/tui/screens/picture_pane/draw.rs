@@ -102,7 +102,6 @@ pub fn draw_legend(frame: &mut Frame<'_>, area: Rect, state: &State) {
     state.theme.adapt(frame.buffer_mut(), area);
 }
 
-/// Draws the picture in the middle of its pane.
 fn draw_cells(frame: &mut Frame<'_>, area: Rect, drawn: &Drawn, state: &State) {
     match drawn {
         Drawn::Pixels(protocol) => frame.render_widget(Image::new(protocol), centred(area, protocol.size())),
@@ -125,7 +124,6 @@ fn centred(area: Rect, size: Size) -> Rect {
     Rect::new(x, y, size.width, size.height).intersection(area)
 }
 
-/// Size of the picture in a pane, cells.
 pub fn cells(pane: Rect) -> Size {
     parts(Block::bordered().inner(pane)).0.as_size()
 }

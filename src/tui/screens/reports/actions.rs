@@ -13,7 +13,6 @@ use results::ReportRow;
 use store::files::word;
 
 impl ReportsScreen {
-    /// Reports that pass the filter of the screen.
     pub fn shown(&self, state: &State) -> Vec<&ReportRow> {
         let filter = state.filter_of(Screen::Reports);
         let passes =
@@ -25,7 +24,6 @@ impl ReportsScreen {
         rows
     }
 
-    /// The selected report.
     pub fn selected(&self, state: &State) -> Option<&ReportRow> {
         let rows = self.shown(state);
         rows.get(self.row).or(rows.last()).copied()
@@ -40,7 +38,6 @@ impl ReportsScreen {
         Some(Effect::Files(FileTask::ListReports))
     }
 
-    /// Builds the report of the study.
     pub fn build(&mut self, state: &mut State) -> Vec<Effect> {
         let Some(study) = state.study() else {
             return state.reply("there is no study yet");
@@ -58,7 +55,6 @@ impl ReportsScreen {
         vec![Effect::Files(FileTask::BuildReport(name))]
     }
 
-    /// Handles the end of building a report.
     pub fn built(&mut self, state: &mut State, page: Result<PathBuf, String>, rows: Vec<ReportRow>) {
         let name = self.building.take();
         self.part.clear();
@@ -106,7 +102,6 @@ pub fn fetching(state: &State, page: &Path) -> String {
     format!("scp -r {}:{} .", state.setup.login, word(&folder))
 }
 
-/// Address of a page for a browser on this machine.
 pub fn address(page: &Path) -> String {
     let page: PathBuf = std::path::absolute(page).unwrap_or_else(|_| page.to_owned());
     format!("file://{}", page.display())

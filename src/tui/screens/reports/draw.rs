@@ -59,7 +59,6 @@ impl ReportsScreen {
         frame.render_widget(Paragraph::new(lines).block(block), area);
     }
 
-    /// Draws the path of the selected report, and how to look at it from elsewhere.
     fn draw_facts(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
         let block = pane(state.theme, "where", false);
         let lines = match self.selected(state) {
@@ -75,7 +74,6 @@ impl ReportsScreen {
     }
 }
 
-/// The panes: list, and path of the selected report.
 fn panes(area: Rect) -> [Rect; 2] {
     Layout::vertical([Constraint::Fill(1), Constraint::Length(area.height.min(9) / 2 + 3)]).areas(area)
 }

@@ -2,16 +2,13 @@
 
 use results::ReportRow;
 
-/// The Reports screen.
 #[derive(Default)]
 pub struct ReportsScreen {
     /// All reports; `None` until they are listed.
     pub rows: Option<Vec<ReportRow>>,
-    /// Index of the selected report.
     pub row: usize,
     /// True to sort by time, the latest first.
     pub by_time: bool,
-    /// Name of the study whose report is being built.
     pub building: Option<String>,
     /// Part of that report that is being made, in words; empty before the first.
     pub part: String,

@@ -27,7 +27,6 @@ pub fn other_simulator(state: &mut State) {
     }
 }
 
-/// Shows the measurements of the next stage.
 pub fn next_stage(state: &mut State) {
     let detail = state.detail();
     let stages = detail.map_or(vec![], stages);

@@ -60,7 +60,7 @@ impl Draw for ResultsScreen {
     }
 }
 
-/// The panes: measurements, metrics, picture; `None` where one does not fit.
+/// Panes; `None` where one does not fit.
 struct Panes {
     table: Option<Rect>,
     numbers: Option<Rect>,
@@ -83,7 +83,7 @@ fn panes(area: Rect, state: &State) -> Panes {
     Panes { table: Some(table), numbers: Some(numbers), picture: Some(picture) }
 }
 
-/// Pane of the picture; `None` where it does not fit.
+/// Returns `None` where the picture does not fit.
 pub fn picture_pane(area: Rect, state: &State) -> Option<Rect> {
     panes(area, state).picture
 }
@@ -114,7 +114,6 @@ fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State) {
     frame.render_widget(Paragraph::new(lines).block(block), area);
 }
 
-/// Reason why there is no table.
 fn why_empty(state: &State) -> String {
     match state.job() {
         None => "Choose a job on screen 1 or 4 and press Enter.".into(),

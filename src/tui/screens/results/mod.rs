@@ -10,7 +10,6 @@ use crate::screens::movement::Movement;
 use crate::screens::page::{Copied, Page};
 use crate::screens::state::State;
 
-/// The Results screen. It has no state of its own.
 #[derive(Default)]
 pub struct ResultsScreen;
 

@@ -18,7 +18,6 @@ use store::Relation;
 /// Most queries in the history.
 const MOST_KEPT: usize = 200;
 
-/// True if typed letters go into the editor.
 pub fn is_editing(state: &State) -> bool {
     state.nav.screen == Screen::Sql && !state.in_second_pane()
 }
@@ -39,7 +38,7 @@ impl SqlScreen {
         self.editor.key(event, self.relations.as_deref().unwrap_or_default())
     }
 
-    /// All queries that are being written, with the present text in its place.
+    /// Queries that are being written, with the present text in its place.
     pub fn queries(&self) -> Queries {
         let mut queries = self.queries.clone();
         queries.texts.resize(queries.texts.len().max(queries.at + 1), String::new());
@@ -54,7 +53,6 @@ impl SqlScreen {
         self.queries = queries;
     }
 
-    /// Begins a new query beside the others.
     pub fn new_query(&mut self, state: &mut State) {
         state.show(Screen::Sql);
         state.nav.second_pane[Screen::Sql as usize] = false;
@@ -65,7 +63,6 @@ impl SqlScreen {
         self.take_queries(queries);
     }
 
-    /// Goes to the next or previous query.
     pub fn step_query(&mut self, state: &mut State, step: isize) {
         let mut queries = self.queries();
         match stepped(queries.at, step, queries.texts.len()).filter(|next| *next != queries.at) {
@@ -94,7 +91,6 @@ impl SqlScreen {
         Some(Effect::Query(QueryRequest::Names))
     }
 
-    /// Runs the query.
     pub fn run_query(&mut self, state: &mut State) -> Vec<Effect> {
         let text = self.editor.text().trim().to_owned();
         if text.is_empty() {
@@ -116,7 +112,6 @@ impl SqlScreen {
         vec![Effect::Query(QueryRequest::Rows(text))]
     }
 
-    /// Handles the answer to a query.
     pub fn answered(&mut self, state: &mut State, ms: u64, outcome: Result<Box<ResultTable>, String>) {
         let Some(text) = self.running.take() else { return };
         match outcome {
@@ -131,7 +126,6 @@ impl SqlScreen {
         }
     }
 
-    /// Puts the previous or next query of the history into the editor.
     pub fn recall(&mut self, state: &mut State, step: isize) {
         let last = self.history.len();
         let at = self.recalled.as_ref().map_or(last, |recalled| recalled.index);
@@ -149,13 +143,11 @@ impl SqlScreen {
         }
     }
 
-    /// Lists the saved queries.
     pub fn offer_queries(&self, state: &mut State) {
         let list = QueryList { queries: self.saved.clone(), text: String::new(), row: 0 };
         state.overlay = Some(Overlay::Queries(list));
     }
 
-    /// Puts a chosen query into the editor.
     pub fn take_query(&mut self, state: &mut State, text: &str) {
         state.show(Screen::Sql);
         state.nav.second_pane[Screen::Sql as usize] = false;
@@ -173,7 +165,6 @@ impl SqlScreen {
         state.overlay = Some(Overlay::Path(PathPrompt::new(Purpose::SaveQuery(text), name.unwrap_or_default())));
     }
 
-    /// Asks for the file for the rows.
     pub fn export_query(&self, state: &mut State) {
         if self.table.is_none() {
             state.say("nothing to export yet: F5 runs the query");
@@ -182,7 +173,6 @@ impl SqlScreen {
         state.overlay = Some(Overlay::Path(PathPrompt::new(Purpose::Export(self.answered.clone()), "query.csv")));
     }
 
-    /// Filters the rows of the answer.
     pub fn arrange_rows(&mut self, state: &State) {
         if let Some(table) = &mut self.table {
             table.arrange(&state.nav.filters[Screen::Sql as usize]);

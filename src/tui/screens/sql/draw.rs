@@ -20,7 +20,6 @@ use crate::widgets::lists::{first_shown, pane};
 use crate::widgets::result_table::{Column, ResultTable, cell_text};
 use crate::widgets::text::{self, left, right, shortened, wrapped};
 
-/// Words that the editor highlights.
 const KEYWORDS: [&str; 34] = [
     "select", "from", "where", "join", "left", "using", "on", "group", "by", "order", "having", "limit", "as", "and",
     "or", "not", "in", "is", "null", "distinct", "case", "when", "then", "else", "end", "with", "union", "all", "desc",
@@ -33,7 +32,6 @@ const OFFERED: usize = 6;
 /// Columns of the catalogue.
 const CATALOGUE: u16 = 30;
 
-/// The panes: query, answer, and tables with their columns.
 struct Panes {
     editor: Rect,
     result: Rect,
@@ -174,7 +172,7 @@ impl SqlScreen {
         frame.render_widget(Paragraph::new(lines).block(block), area);
     }
 
-    /// Reason why the query was refused; empty if it was not.
+    /// Returns no lines if the query was not refused.
     fn refusal(&self, state: &State, width: u16) -> Vec<Line<'static>> {
         let Some(Err(error)) = &self.outcome else { return vec![] };
         let wrapped = wrapped(error, usize::from(width).saturating_sub(2));
@@ -195,7 +193,6 @@ impl SqlScreen {
     }
 }
 
-/// Names in columns, as many side by side as fit.
 fn columns(names: &[String], width: usize) -> Vec<String> {
     let widest = names.iter().map(|name| text::width(name)).max().unwrap_or(0) + 1;
     let across = (width.saturating_sub(1) / widest).max(1);
@@ -206,9 +203,7 @@ fn columns(names: &[String], width: usize) -> Vec<String> {
 /// A row of the editor: a line of the query, or the part of a long one that fits.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct EditorRow {
-    /// Index of the line.
     line: usize,
-    /// Letters of the line.
     letters: Range<usize>,
 }
 
@@ -231,7 +226,6 @@ fn editor_rows(text: &str, columns: u16) -> Vec<EditorRow> {
     rows
 }
 
-/// Some letters of a line of the query, with SQL words and the cursor highlighted.
 fn query_line(state: &State, text: &str, shown: &Range<usize>, cursor: Option<usize>) -> Line<'static> {
     let letters: Vec<char> = text.chars().chain(cursor.map(|_| ' ')).collect();
     let is_comment = text.trim_start().starts_with("--");
@@ -260,7 +254,6 @@ fn query_line(state: &State, text: &str, shown: &Range<usize>, cursor: Option<us
     Line::from(spans)
 }
 
-/// Offered words, with the taken one highlighted.
 fn draw_offer(frame: &mut Frame<'_>, area: Rect, offer: &Offer, state: &State) {
     let taken = offer.taken.unwrap_or(0);
     let first = first_shown(taken, offer.words.len(), OFFERED);

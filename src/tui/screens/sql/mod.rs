@@ -15,7 +15,6 @@ use crate::screens::sql::actions::is_editing;
 use crate::screens::sql::state::SqlScreen;
 use crate::screens::state::State;
 
-/// Keys for the status line while a query is typed.
 const EDITOR_HINTS: [(&str, &str); 5] =
     [("F5", "run"), ("Tab", "complete, or rows"), ("C-p", "history"), ("Esc", "rows and commands"), ("C-c", "cancel")];
 

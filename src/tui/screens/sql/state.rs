@@ -4,16 +4,13 @@ use crate::widgets::editor::Editor;
 use crate::widgets::result_table::ResultTable;
 use store::{Relation, SavedQuery};
 
-/// Texts of the queries that are being written, and the index of the present one.
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Queries {
     /// Texts before and after the present query, and in its place what it was when it came into the editor.
     pub texts: Vec<String>,
-    /// Index of the present query.
     pub at: usize,
 }
 
-/// A query of the history that is shown in the editor.
 pub struct Recalled {
     /// Index in the history.
     pub index: usize,
@@ -21,10 +18,8 @@ pub struct Recalled {
     pub typed: String,
 }
 
-/// The SQL screen.
 #[derive(Default)]
 pub struct SqlScreen {
-    /// Editor with the present query.
     pub editor: Editor,
     /// Queries that are being written; the text of the present one is in the editor.
     pub queries: Queries,
@@ -34,13 +29,10 @@ pub struct SqlScreen {
     pub recalled: Option<Recalled>,
     /// Tables and views that a query may name; `None` until they are read.
     pub relations: Option<Vec<Relation>>,
-    /// Saved queries.
     pub saved: Vec<SavedQuery>,
-    /// Query that is being answered.
     pub running: Option<String>,
     /// Query whose answer is in `table`.
     pub answered: String,
-    /// Rows of the last answer, with their order and selection.
     pub table: Option<ResultTable>,
     /// Number of rows and duration of the last answer, or the error.
     pub outcome: Option<Result<String, String>>,

@@ -7,7 +7,6 @@ use ratatui::widgets::{Paragraph, Wrap};
 
 use crate::screens::state::State;
 
-/// Draws what a new user may do first.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let bold = state.theme.bold();
     let mut lines = vec![

@@ -20,7 +20,6 @@ use engine::{NewOutfit, wearables};
 use sim::fabric::USUAL as USUAL_FABRIC;
 use store::{Cell, FitCell, JobId, Status};
 
-/// True if a place of the grid matches the filter.
 pub fn is_match(state: &State, place: Place) -> bool {
     let filter = state.filter_of(Screen::Study);
     let (Some(data), Some(grid)) = (&state.data, state.grid()) else { return false };
@@ -69,7 +68,6 @@ pub fn matching_jobs(state: &State) -> Vec<JobId> {
     places.filter_map(|place| state.data.as_ref()?.cell_at(place)?.job).collect()
 }
 
-/// Moves the selection up or down in the grid.
 pub fn go_in_grid(state: &mut State, movement: Movement) {
     let Some(grid) = state.grid() else { return };
     let simulators = grid.simulators.len().max(1);
@@ -86,7 +84,6 @@ pub fn go_to_cell(state: &mut State, cell: usize) {
     }
 }
 
-/// Selects the next or previous cell that matches the filter.
 pub fn go_to_matching_cell(state: &mut State, step: isize) {
     let places = places(state);
     let at = places.iter().position(|place| *place == state.place).unwrap_or(0);
@@ -100,7 +97,7 @@ pub fn go_to_matching_cell(state: &mut State, step: isize) {
     }
 }
 
-/// Shows the result of the selected job. Without a study runs the quickstart.
+/// Runs the quickstart where there is no study.
 pub fn open(state: &mut State) -> Vec<Effect> {
     if state.is_first_start() {
         return state.run(Target::Quickstart);
@@ -113,7 +110,6 @@ pub fn open(state: &mut State) -> Vec<Effect> {
     vec![]
 }
 
-/// Shows the next or previous garment of the study.
 pub fn step_garment(state: &mut State, step: isize) {
     let Some(garments) = state.study().map(|study| &study.garments) else { return };
     let at = garments.iter().position(|name| Some(name) == state.focus.garment.as_ref()).unwrap_or(0);
@@ -124,7 +120,6 @@ pub fn step_garment(state: &mut State, step: isize) {
     }
 }
 
-/// Shows the next study.
 pub fn next_study(state: &mut State) {
     let Some(data) = &state.data else { return };
     let Some(next) = stepped(data.study, 1, data.studies.len()) else { return };
@@ -136,7 +131,6 @@ pub fn next_study(state: &mut State) {
     state.open_study(name);
 }
 
-/// Opens the form of a new study.
 pub fn new_study(state: &mut State) {
     let Some(data) = &state.data else { return };
     if !state.setup.abilities.run {
@@ -197,7 +191,6 @@ pub fn study_created(state: &mut State, name: &str, outcome: Result<PathBuf, Str
     }
 }
 
-/// Selected cell, with the quantities of the grid and of the numbers below it.
 pub fn explained(state: &State) -> Selected {
     let shown = measured::explained(state);
     let place = state.place;

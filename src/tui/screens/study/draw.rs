@@ -26,7 +26,6 @@ use store::Grid;
 
 /// Least lines for a picture below the grid.
 const LEAST_PICTURE: u16 = 14;
-/// Legend of the marks of fits.
 const FIT_LEGEND: &str = "T tight  J just  L loose  ~ borderline  ! undersized";
 
 impl Draw for StudyScreen {
@@ -114,7 +113,7 @@ impl Panes {
     }
 }
 
-/// Pane of the picture; `None` where it does not fit.
+/// Returns `None` where the picture does not fit.
 pub fn picture_pane(area: Rect, state: &State) -> Option<Rect> {
     state.grid().filter(|_| !is_narrow(area)).and_then(|grid| Panes::new(area, grid).picture)
 }
@@ -151,7 +150,6 @@ impl Shown {
     }
 }
 
-/// Title of the pane: study, and garment with its number.
 fn title(state: &State, grid: &Grid) -> String {
     let garments = state.study().map_or(&[][..], |study| &study.garments);
     let at = garments.iter().position(|name| *name == grid.garment).unwrap_or(0);

@@ -13,7 +13,6 @@ use crate::screens::movement::Movement;
 use crate::screens::page::{Copied, Page};
 use crate::screens::state::State;
 
-/// The Study screen. It has no state of its own.
 #[derive(Default)]
 pub struct StudyScreen;
 

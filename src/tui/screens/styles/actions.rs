@@ -45,7 +45,6 @@ pub fn outfit_lines(state: &State, style: &str) -> Vec<String> {
 }
 
 impl StylesScreen {
-    /// Sizes that pass the filter.
     pub fn sizes<'a>(&self, state: &'a State) -> Vec<&'a SizeRow> {
         let Some(data) = &state.data else { return vec![] };
         let filter = state.filter_of(Screen::Styles);
@@ -81,7 +80,6 @@ impl StylesScreen {
         is_shown.then(|| outcome.as_deref().map_err(String::as_str))
     }
 
-    /// Layout of the selected size; `None` where there is none.
     pub fn laid_out(&self, state: &State) -> Option<&SizeLayout> {
         self.layout(state)?.ok()
     }
@@ -93,13 +91,11 @@ impl StylesScreen {
             .is_some_and(|layout| layout.outcome.is_ok() && Some(&layout.request) == self.requested.as_ref())
     }
 
-    /// Selected line of the table.
     pub fn table_line(&self, state: &State) -> Option<TableLine> {
         let lines = self.laid_out(state)?.lines();
         lines.get(self.line).or(lines.last()).copied()
     }
 
-    /// Requests the layout of the selected size, unless it was requested before.
     pub fn ask_for_layout(&mut self, state: &State) -> Option<Effect> {
         let wanted = self.layout_request(state);
         if wanted == self.requested {
@@ -109,7 +105,6 @@ impl StylesScreen {
         wanted.map(|request| Effect::Seams(SeamTask::LayOut(request)))
     }
 
-    /// Request for the layout of the selected size with its edits.
     pub fn layout_request(&self, state: &State) -> Option<LayoutRequest> {
         let row = self.size_row(state)?;
         let study = state.study().filter(|study| study.garments.contains(&row.style)).map(|study| study.path.clone());
@@ -202,7 +197,6 @@ impl StylesScreen {
         catalogue::remove(state, part, vec![name]);
     }
 
-    /// Moves the selection in the list of sizes.
     pub fn go_in_sizes(&mut self, state: &State, movement: Movement) {
         let selected = self.size_row(state).map(|row| row.key);
         let sizes = self.sizes(state);
@@ -211,19 +205,16 @@ impl StylesScreen {
         self.selected = next.map(|row| (row.style.clone(), row.size.clone()));
     }
 
-    /// Moves the selection in the table of seams.
     pub fn go_in_seams(&mut self, state: &State, movement: Movement) {
         let lines = self.laid_out(state).map_or(0, |layout| layout.lines().len());
         self.select_line(state, movement.from(self.line, lines));
     }
 }
 
-/// Revisions of a size's style and of the size itself.
 pub fn revisions(row: &SizeRow) -> String {
     format!("{}/{}", row.style_revision, row.revision)
 }
 
-/// Opens the form for the files of a style.
 pub fn import_style(state: &mut State) {
     if may_change(state, Part::Style) {
         state.overlay = Some(Overlay::StyleForm(Box::default()));

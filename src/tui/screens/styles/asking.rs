@@ -163,7 +163,6 @@ impl StylesScreen {
         vec![]
     }
 
-    /// True if a question is asked on the shown screen.
     pub fn is_asking(&self, state: &State) -> bool {
         state.nav.screen == Screen::Styles && self.asking.is_some()
     }

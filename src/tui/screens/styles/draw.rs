@@ -140,12 +140,10 @@ impl StylesScreen {
         self.panes(area, state).pieces
     }
 
-    /// Area that the preview leaves for the pieces.
     fn beside_preview(&self, state: &State, area: Rect) -> Rect {
         self.preview_place(state, area).map_or(area, |garment| Rect { width: area.width - garment.width, ..area })
     }
 
-    /// Draws the list of sizes, with a border where one fits.
     fn draw_list(&self, frame: &mut Frame<'_>, area: Rect, state: &State, is_bare: bool) {
         if is_bare {
             frame.render_widget(Paragraph::new(self.list(state, area.width, area.height)), area);
@@ -163,7 +161,6 @@ impl StylesScreen {
         frame.render_widget(Paragraph::new(self.list(state, inner.width, inner.height)).block(block), area);
     }
 
-    /// Draws the pieces, with the preview beside or instead of them.
     fn draw_pieces(&self, frame: &mut Frame<'_>, area: Rect, state: &State, on_desk: bool) {
         let garment = self.preview_place(state, area);
         let left = self.beside_preview(state, area);
@@ -175,7 +172,6 @@ impl StylesScreen {
         }
     }
 
-    /// The list of sizes with its header.
     fn list(&self, state: &State, width: u16, height: u16) -> Vec<Line<'static>> {
         let sizes = self.sizes(state);
         let (width, height) = (usize::from(width), usize::from(height).saturating_sub(1));
@@ -246,7 +242,6 @@ impl StylesScreen {
         }
     }
 
-    /// Description of the selected edge, with its seam.
     fn selection(&self, layout: &SizeLayout) -> String {
         let (piece, edge) = self.edge;
         let Some(piece) = layout.out.desk.pieces.get(piece) else { return String::new() };
@@ -262,7 +257,6 @@ impl StylesScreen {
         }
     }
 
-    /// Lines of the table: seams, questions, measurements, with the selected line.
     fn table(&self, state: &State, layout: &SizeLayout, width: u16, height: u16) -> Vec<Line<'static>> {
         let worn = self.outfit_lines(state, width, height);
         let (width, height) = (usize::from(width), usize::from(height).saturating_sub(1 + worn.len()));
@@ -299,7 +293,6 @@ impl StylesScreen {
     }
 }
 
-/// Number of open questions.
 fn to_decide(layout: &SizeLayout) -> usize {
     layout.out.undecided.len()
 }

@@ -26,7 +26,6 @@ struct Dotted {
 }
 
 impl EdgeDots {
-    /// Edges of some pieces in a view.
     pub fn of(pieces: &[DeskPiece], view: &View) -> Self {
         let all = pieces.iter().enumerate();
         let all =

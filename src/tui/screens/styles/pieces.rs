@@ -18,11 +18,9 @@ use crate::widgets::lists::pane;
 use crate::widgets::text::{shortened, width};
 use wardrobe::seams::{DeskEdge, DeskPiece, DeskSeam};
 
-/// Digits that name the answers of a question.
 const DIGITS: [&str; 9] = ["1", "2", "3", "4", "5", "6", "7", "8", "9"];
 
 impl StylesScreen {
-    /// Draws the pane with the pieces.
     pub fn draw_piece_pane(&self, frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
         let title = self.size_row(state).map_or("pieces".to_owned(), |row| format!("{} {}", row.style, row.size));
         let room = usize::from(area.width).saturating_sub(26);
@@ -59,12 +57,11 @@ struct Drawing<'a> {
 }
 
 impl Drawing<'_> {
-    /// Colour of an edge, which is that of its seam.
+    /// Colour of the edge's seam.
     fn colour(&self, edge: EdgeAt) -> Color {
         self.layout.seam_at(edge).map_or(Color::Reset, |seam| self.state.theme.lettered(seam))
     }
 
-    /// All edges with their indices.
     fn edges(&self) -> impl Iterator<Item = (EdgeAt, &DeskPiece, &DeskEdge)> {
         let pieces = self.layout.out.desk.pieces.iter().enumerate();
         pieces.flat_map(|(k, piece)| piece.edges.iter().enumerate().map(move |(n, edge)| ((k, n), piece, edge)))

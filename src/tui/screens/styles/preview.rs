@@ -108,7 +108,6 @@ impl StylesScreen {
         preview.is_chosen = is_wide || *look != FRONT;
     }
 
-    /// Picture of the preview, with its area.
     pub fn previewed(&self, state: &State, area: Rect) -> Vec<(Pictured, Rect)> {
         let number = self.preview.seen.as_ref().filter(|seen| seen.outcome.is_ok()).map(|seen| seen.request.number);
         let pane = self
@@ -128,7 +127,6 @@ impl StylesScreen {
         Some(Layout::horizontal([Constraint::Fill(3), Constraint::Fill(2)]).areas::<2>(area)[1])
     }
 
-    /// Draws the preview, with its state below.
     pub fn draw_preview(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
         let view = look_name(state.pictures.look);
         let seen = self.preview.seen.as_ref().map(|Answered { request, outcome }| (request, outcome));

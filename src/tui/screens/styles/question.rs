@@ -13,7 +13,6 @@ use crate::widgets::text::wrapped;
 use wardrobe::seams::Undecided;
 
 impl StylesScreen {
-    /// Draws the question instead of the table.
     pub fn draw_question(&self, frame: &mut Frame<'_>, area: Rect, state: &State, asked: &Undecided) {
         let count = self.laid_out(state).map_or(0, |layout| layout.out.undecided.len());
         let title = match self.asking {

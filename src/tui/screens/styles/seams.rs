@@ -92,7 +92,6 @@ impl StylesScreen {
         Some((layout.out.desk.edge_name(*seam.a.first()?), layout.out.desk.edge_name(*seam.b.first()?)))
     }
 
-    /// Removes the selected seam.
     pub fn remove_seam(&mut self, state: &mut State) -> Vec<Effect> {
         let edges = self.selected_seam(state).and_then(|seam| self.between(state, &seam));
         edges.map_or(vec![], |(a, b)| self.step_of_work(state, SeamStep::Edit(SeamEdit::Remove { a, b })))
@@ -146,14 +145,12 @@ impl StylesScreen {
         effects
     }
 
-    /// Requests a step of work on the seams of the selected size.
     pub fn step_of_work(&mut self, state: &State, step: SeamStep) -> Vec<Effect> {
         let Some(request) = self.layout_request(state) else { return vec![] };
         self.is_busy = true;
         vec![Effect::Seams(SeamTask::Sew(SeamWork { size: request, step }))]
     }
 
-    /// Stores the seam file after a step of work.
     pub fn sewn(&mut self, state: &mut State, work: SeamWork, outcome: Result<SourceFile, String>) {
         let SeamWork { size: request, step } = work;
         self.is_busy = false;
@@ -170,7 +167,6 @@ impl StylesScreen {
         }
     }
 
-    /// Undoes the last edit of the selected style.
     pub fn undo_edit(&mut self, state: &mut State) {
         state.show(Screen::Styles);
         let Some(style) = self.size_row(state).map(|row| row.style.clone()) else { return };
@@ -190,7 +186,6 @@ impl StylesScreen {
         state.say(format!("the last edit of {style} is taken back, {left}; U does it again"));
     }
 
-    /// Redoes the edit of the selected style that was undone last.
     pub fn redo_edit(&mut self, state: &mut State) {
         state.show(Screen::Styles);
         let Some(style) = self.size_row(state).map(|row| row.style.clone()) else { return };
@@ -203,7 +198,6 @@ impl StylesScreen {
         }
     }
 
-    /// Saves the edited seams of the selected style.
     pub fn save_seams(&self, state: &mut State) -> Vec<Effect> {
         if !may_change(state, Part::Style) {
             return vec![];
@@ -245,7 +239,6 @@ impl StylesScreen {
         Some(Writing::Seams(request, file))
     }
 
-    /// Handles a seam file that was written in the user's editor.
     pub fn written(
         &mut self,
         state: &mut State,

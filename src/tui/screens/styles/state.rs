@@ -7,7 +7,6 @@ use crate::messages::seams::{LayoutRequest, PreviewRequest, Previewed, SizeLayou
 use store::files::SourceFile;
 use wardrobe::seams::SeamStep;
 
-/// Letter of a seam, in table and drawing.
 pub fn letter(seam: usize) -> char {
     let small = || ('a'..='z').nth(seam.saturating_sub(26));
     ('A'..='Z').nth(seam).or_else(small).unwrap_or('+')
@@ -22,47 +21,33 @@ pub fn short_name(id: &str, letters: usize) -> String {
 /// An edge: index of the piece, and index of the edge on it.
 pub type EdgeAt = (usize, usize);
 
-/// The Styles screen.
 #[derive(Default)]
 pub struct StylesScreen {
-    /// Selected style and size.
     pub selected: Option<(String, String)>,
     /// Unsaved edits by style, the latest last.
     pub edits: BTreeMap<String, Vec<Edited>>,
     /// Undone edits by style, the latest last.
     pub undone: BTreeMap<String, Vec<Edited>>,
-    /// The present question; `None` while nothing is asked.
     pub asking: Option<Asking>,
-    /// Preview of the garment.
     pub preview: Preview,
-    /// Size of the latest request for a layout.
     pub requested: Option<LayoutRequest>,
-    /// Latest layout, or the reason why there is none.
     pub layout: Option<Answered<LayoutRequest, Box<SizeLayout>>>,
-    /// Selected edge.
     pub edge: EdgeAt,
-    /// Index of the selected line of the table.
     pub line: usize,
     /// Marked edges, in the order of marking.
     pub marks: Vec<EdgeAt>,
-    /// True while a step of work is in progress.
     pub is_busy: bool,
-    /// True if the pieces are enlarged to all the room.
     pub enlarged: bool,
 }
 
-/// A seam file after a step of work.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edited {
     /// Size that was edited, `STYLE/SIZE`.
     pub size: String,
-    /// Step of work that was done.
     pub step: SeamStep,
-    /// Seam file after the step.
     pub seams: SourceFile,
 }
 
-/// The present question about seams.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Asking {
     /// Index in the list of open questions.
@@ -73,7 +58,6 @@ pub struct Asking {
     pub goes_on: bool,
 }
 
-/// A question of the user's own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Own {
     /// Asks what an edge is sewn to.
@@ -84,12 +68,9 @@ pub enum Own {
     LeftOut(usize),
 }
 
-/// Preview of a garment while its seams are edited.
 #[derive(Debug, Default)]
 pub struct Preview {
-    /// Latest request.
     pub asked: Option<PreviewRequest>,
-    /// Latest preview.
     pub seen: Option<Answered<PreviewRequest, Previewed>>,
     /// True to show the preview instead of the pieces, where only one fits.
     pub is_chosen: bool,
@@ -105,12 +86,10 @@ fn named_first(names: &[String]) -> String {
     named.join(", ") + &more
 }
 
-/// A line of the table beside the pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableLine {
     /// A seam, by its index in [`wardrobe::seams::Desk`].
     Seam(usize),
-    /// An open question, by its index.
     Question(usize),
     /// A measurement, by its index.
     Length(usize),
@@ -125,7 +104,7 @@ impl SizeLayout {
         seams.chain(questions).chain((0..self.out.lengths.len()).map(TableLine::Length)).collect()
     }
 
-    /// Index of the seam that an edge is in; `None` for an edge in no seam.
+    /// Returns `None` for an edge in no seam.
     pub fn seam_at(&self, edge: EdgeAt) -> Option<usize> {
         self.out.desk.seams.iter().position(|seam| seam.a.contains(&edge) || seam.b.contains(&edge))
     }
@@ -170,7 +149,6 @@ impl SizeLayout {
         told.collect::<Vec<_>>().join(" ")
     }
 
-    /// All edges, piece by piece.
     pub fn edges(&self) -> Vec<EdgeAt> {
         let pieces = self.out.desk.pieces.iter().enumerate();
         pieces.flat_map(|(piece, drawn)| (0..drawn.edges.len()).map(move |edge| (piece, edge))).collect()

@@ -7,11 +7,10 @@ use wardrobe::seams::DeskEdge;
 
 /// Scale from mm to braille dots, of which a cell has two by four.
 pub struct View {
-    /// Cells of the pane.
     pub area: Rect,
     /// Left and upper end of the pane, mm.
     pub corner: [f64; 2],
-    /// Scale, mm per dot.
+    /// Millimetres per dot.
     pub scale: f64,
 }
 
@@ -40,7 +39,7 @@ impl View {
         [(x - self.corner[0]) / self.scale, (self.corner[1] - y) / self.scale]
     }
 
-    /// Cell of a point; `None` outside the pane.
+    /// Returns `None` outside the pane.
     pub fn cell(&self, place: [f64; 2]) -> Option<Position> {
         let [x, y] = self.dots(place);
         let [column, row] = [(x / 2.0).floor(), (y / 4.0).floor()];

@@ -12,7 +12,6 @@ use spec::{Field, MEASUREMENTS};
 use wardrobe::{Part, SubjectRow};
 
 impl SubjectsScreen {
-    /// Subjects that pass the filter, in the order of the list.
     pub fn shown<'a>(&self, state: &'a State) -> Vec<&'a SubjectRow> {
         let Some(data) = &state.data else { return vec![] };
         let filter = state.filter_of(Screen::Subjects);
@@ -32,25 +31,22 @@ impl SubjectsScreen {
         subjects
     }
 
-    /// Index of the selected subject in the list; 0 where the chosen subject is not shown.
+    /// Returns 0 where the chosen subject is not shown.
     pub fn index_in(&self, shown: &[&SubjectRow]) -> usize {
         shown.iter().position(|row| Some(&row.name) == self.chosen.as_ref()).unwrap_or(0)
     }
 
-    /// The selected subject.
     pub fn selected<'a>(&self, state: &'a State) -> Option<&'a SubjectRow> {
         let shown = self.shown(state);
         shown.get(self.index_in(&shown)).copied()
     }
 
-    /// Moves the selection in the list.
     pub fn go_in_list(&mut self, state: &State, movement: Movement) {
         let shown = self.shown(state);
         let next = shown.get(movement.from(self.index_in(&shown), shown.len()));
         self.chosen = next.map(|row| row.name.clone());
     }
 
-    /// Opens the form of the selected subject.
     pub fn edit(&self, state: &mut State) {
         if catalogue::may_change(state, Part::Subject) {
             let form = self.selected(state).map(Form::of_subject);
@@ -93,7 +89,6 @@ pub fn number(value: Option<f64>, key: &str) -> String {
     }
 }
 
-/// Opens the form of a new subject.
 pub fn add(state: &mut State) {
     if catalogue::may_change(state, Part::Subject) {
         catalogue::fill_in(state, Some(Form::new_subject()), "");

@@ -39,12 +39,11 @@ fn panes(area: Rect) -> [Rect; 3] {
     [list, table, picture]
 }
 
-/// Pane of the picture; `None` where it does not fit.
+/// Returns `None` where the picture does not fit.
 pub fn picture_pane(area: Rect) -> Option<Rect> {
     (!is_narrow(area)).then(|| panes(area)[2])
 }
 
-/// Number of table lines that fit.
 pub fn table_rows(area: Rect) -> usize {
     usize::from(panes(area)[1].height).saturating_sub(3)
 }

@@ -10,10 +10,8 @@ use store::SubjectId;
 /// Number of measurements in the list: stature, weight, chest, waist, hip.
 pub const SHOWN: usize = 5;
 
-/// Order of the list.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum SubjectOrder {
-    /// By name, alphabetically.
     #[default]
     Name,
     /// By sex, then by name.
@@ -23,7 +21,7 @@ pub enum SubjectOrder {
 }
 
 impl SubjectOrder {
-    /// Order after this one, for the key that sorts; `measurements` is their number.
+    /// Order after this one; `measurements` is the number of measurements.
     pub fn next(self, measurements: usize) -> Self {
         match self {
             Self::Name => Self::Sex,
@@ -34,14 +32,10 @@ impl SubjectOrder {
     }
 }
 
-/// The Subjects screen.
 #[derive(Default)]
 pub struct SubjectsScreen {
-    /// Name of the chosen subject.
     pub chosen: Option<String>,
-    /// Names of the marked subjects.
     pub marks: Marks<String>,
-    /// Order of the list.
     pub order: Order<SubjectOrder>,
     /// Tape measurements of bodies, or the reason why a body could not be built.
     pub measured: BTreeMap<SubjectId, Result<Box<Girths>, String>>,
