@@ -10,30 +10,22 @@ use geom::V2;
 use geom::polyline::signed_area;
 use geom::units::mm;
 
-/// Square millimetres in a square metre.
 const MM2_PER_M2: f64 = 1e6;
 
 /// Content of one pattern file, or the reason why it cannot be read.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FileReport {
-    /// Name of the file, as it was given.
     pub file: String,
-    /// Format and version.
     pub format: String,
-    /// Unit of the numbers, `mm`, `cm`, `in` or `m`, with a remark where the user gave it or it is assumed.
+    /// `mm`, `cm`, `in` or `m`, with a remark where the user gave it or it is assumed.
     pub units: String,
-    /// Millimetres in one unit.
     pub mm_per_unit: Option<f64>,
-    /// Pieces in the order of the file.
     pub pieces: Vec<PieceReport>,
-    /// Blocks that cannot be used as pieces.
     pub refused: Vec<Refused>,
-    /// Warnings for the user.
     pub warnings: Vec<String>,
     /// Number of unused entities by layer.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub unused: BTreeMap<String, usize>,
-    /// Reason why the file cannot be read.
     pub error: Option<String>,
     /// Names of blocks byte for byte as in the file ([`PatternFile::as_written`]), by the names in its code page, where
     /// the two differ.
@@ -41,42 +33,31 @@ pub struct FileReport {
     pub written: BTreeMap<String, String>,
 }
 
-/// One piece as the file stores it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PieceReport {
-    /// Name of the block in the file's code page.
+    /// In the file's code page.
     pub block: String,
-    /// Name of the piece in the file's code page, or the name of the block if the file gives none.
+    /// In the file's code page. Name of the block if the file gives none.
     pub name: String,
     /// Size as the piece or the file names it.
     pub size: Option<String>,
-    /// Quantity to cut, as written.
+    /// As written.
     pub quantity: Option<String>,
-    /// Length of the outline as drawn, mm, before any repair.
+    /// As drawn, before any repair.
     pub perimeter_mm: f64,
-    /// Area within the outline, mm2.
     pub area_mm2: f64,
-    /// True if the outline is closed. Always true, because a piece with an open outline is refused.
+    /// Always true, because a piece with an open outline is refused.
     pub closed: bool,
-    /// True if the file draws the outline clockwise.
     pub clockwise: bool,
-    /// Number of turn points.
     pub turn_points: usize,
-    /// Number of curve points.
     pub curve_points: usize,
-    /// Number of notches.
     pub notches: usize,
-    /// Length of the grain line, mm.
     pub grain_mm: Option<f64>,
-    /// Number of mirror lines: 1 for a half piece, otherwise 0.
+    /// 1 for a half piece, otherwise 0.
     pub mirror_lines: usize,
-    /// Number of internal lines.
     pub internal_lines: usize,
-    /// Number of cut-outs.
     pub cut_outs: usize,
-    /// Number of drill holes.
     pub drill_holes: usize,
-    /// Area within the sew line, mm2.
     pub sew_area_mm2: Option<f64>,
     /// True for a half piece. It is opened for sewing, but measured as stored.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
@@ -106,7 +87,6 @@ impl From<&PatternFile> for FileReport {
 }
 
 impl FileReport {
-    /// Report of a file that cannot be read.
     pub fn unreadable(file: &str, error: String) -> Self {
         Self {
             file: file.to_owned(),
@@ -134,7 +114,6 @@ impl FileReport {
     }
 }
 
-/// Names of the blocks of a file as they are written, where that is not how they read.
 fn written_names(file: &PatternFile) -> BTreeMap<String, String> {
     let blocks = file.pieces.iter().map(|piece| &piece.block).chain(file.refused.iter().map(|refused| &refused.block));
     blocks.map(|block| (block.clone(), file.as_written(block))).filter(|(read, written)| read != written).collect()

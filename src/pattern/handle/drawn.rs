@@ -22,7 +22,7 @@ use toml_edit::{Array, DocumentMut, Value, value};
 /// Greatest deviation of a displaced segment from the displaced positions of its inner points, m: a hundredth of the
 /// tolerance of a seam.
 const CARRIED_M: f64 = 5e-6;
-/// Length below which such a segment is not divided further, m.
+/// In m. Shorter segments are not divided further.
 const SHORT_M: f64 = 1e-3;
 /// Greatest difference between the changes of a block that is worn twice, m.
 const ALIKE_M: f64 = 0.05e-3;
@@ -31,7 +31,7 @@ const ALIKE_M: f64 = 0.05e-3;
 pub struct Redrawn<'a> {
     pieces: &'a [Piece],
     entries: SeamFile,
-    /// Displacements of the changed pieces, by their index.
+    /// By index of the piece.
     carriers: BTreeMap<usize, Carrier>,
 }
 
@@ -138,7 +138,6 @@ pub fn outlines_apart_m(style: &Style, other: &Style) -> f64 {
     style.pieces.iter().zip(&other.pieces).map(apart).fold(0.0, f64::max)
 }
 
-/// Bytes of a seam file with changed `corners_at` of some pieces. The rest of its text stays.
 pub(crate) fn with_corners(
     seam_bytes: &[u8],
     file: &str,
@@ -163,12 +162,12 @@ struct Pose {
     /// Shrinkage of the cloth, and the grain before the turn.
     shrinkage: Shrinkage,
     grain: V2,
-    /// Cosine and sine of the turn.
+    /// Cosine and sine.
     turn: V2,
 }
 
 impl Pose {
-    /// Transform of a drawn piece to a piece of the style. The grain gives the rotation.
+    /// The grain gives the rotation.
     fn of(drawn: &Piece, worn: &StylePiece, is_mirrored: bool, shrinkage: Shrinkage) -> Self {
         let grain = drawn.grain.and_then(|[from, to]| (to - from).try_normalize(0.0)).unwrap_or_else(V2::y);
         let grain = if is_mirrored { V2::new(-grain.x, grain.y) } else { grain };
@@ -189,11 +188,9 @@ impl Pose {
     }
 }
 
-/// Displacement of a drawn piece by the fields of all handles in turn.
 struct Carrier {
     pose: Pose,
     fields: Vec<Field>,
-    /// Fold at which the piece was unfolded.
     fold: Option<Fold>,
 }
 

@@ -4,23 +4,20 @@
 use geom::V2;
 use geom::polyline::segment_distance;
 
-/// Distance below which a point counts as on the outline, m.
+/// In m.
 const ON_OUTLINE_M: f64 = 1e-6;
 
-/// Displacement field of an outline whose vertices have moved.
 pub struct Field {
     outline: Vec<V2>,
     by: Vec<V2>,
 }
 
 impl Field {
-    /// Field that takes the vertices of an outline to `moved`.
     pub fn new(outline: Vec<V2>, moved: &[V2]) -> Self {
         let by = outline.iter().zip(moved).map(|(from, to)| to - from).collect();
         Self { outline, by }
     }
 
-    /// Displaced position of a point.
     pub fn carried(&self, place: V2) -> V2 {
         place + self.by_at(place)
     }

@@ -7,7 +7,7 @@ use super::{rig, upper};
 use crate::style::EdgePoint;
 use geom::smooth_step;
 
-/// Distance below which a corner of a side counts as at a level, m.
+/// In m.
 const AT_LEVEL_M: f64 = 1e-6;
 
 /// Plan of a girth handle. `None` if no side has its level.
@@ -38,7 +38,6 @@ pub fn plan(body: &Body<'_>, handle: Handle) -> Option<Plan> {
     Some(plan)
 }
 
-/// True if a handle moves a side.
 fn moves(side: &Side, handle: Handle) -> bool {
     // The handle `thigh` moves the outseam only. Near the fork, the inseam belongs to the handle `fork`.
     let is_meant = !(handle == Handle::Thigh && matches!(side.limb, Limb::Inner(_)));
@@ -85,7 +84,7 @@ pub fn drive(body: &Body<'_>, plan: &mut Plan, side: &Side, handle: Handle, by: 
     }
 }
 
-/// Point of a side at an arc length from its upper end. Near an end it is the corner there.
+/// Near an end it is the corner there.
 fn place(body: &Body<'_>, side: &Side, at_m: f64) -> Option<EdgePoint> {
     let length_m: f64 = side.chain.iter().map(|step| body.anatomy.length_m(&[step.edge])).sum();
     if at_m <= 0.0 {

@@ -41,7 +41,6 @@ pub enum Handle {
     ShoulderSlope,
     /// Position of the shoulder seam: that of the shoulder point.
     ForwardShoulder,
-    /// Length of the shoulder.
     ShoulderLength,
     /// Half of the width across the front.
     FrontWidth,
@@ -53,21 +52,16 @@ pub enum Handle {
     Bust,
     /// Length of the back bodice at its centre.
     SwayBack,
-    /// Depth of the neck in front.
     FrontNeckDepth,
     /// Depth of the neck behind.
     BackNeckDepth,
-    /// Width of the neck.
     NeckWidth,
-    /// Depth of the armhole.
     ArmholeDepth,
     /// Half of the girth of the sleeve at the bicep.
     Bicep,
     /// Half of the lower edge of the sleeve.
     Cuff,
-    /// Height of the sleeve cap.
     CapHeight,
-    /// Length of the sleeve.
     SleeveLength,
     /// Length of front and back.
     BodyLength,
@@ -75,14 +69,12 @@ pub enum Handle {
     FrontLength,
     /// Length of the back at its centre.
     BackLength,
-    /// Length of the skirt.
     SkirtLength,
 }
 
-/// Definition of a handle.
 struct Entry {
     name: &'static str,
-    /// Greatest usual amount in either direction, mm.
+    /// Greatest usual amount in either direction.
     most_mm: f64,
     is_half_girth: bool,
     /// Effect of a positive amount.
@@ -90,7 +82,7 @@ struct Entry {
 }
 
 impl Handle {
-    /// All handles, in the order in which they are listed.
+    /// In the order in which they are listed.
     pub const ALL: [Self; 36] = [
         Self::Chest,
         Self::Waist,
@@ -223,12 +215,10 @@ impl Handle {
         Entry { name, most_mm, is_half_girth, definition }
     }
 
-    /// Name in tables and files.
     pub const fn as_str(self) -> &'static str {
         self.entry().name
     }
 
-    /// Definition of a positive amount.
     pub const fn definition(self) -> &'static str {
         self.entry().definition
     }
@@ -266,7 +256,6 @@ impl Handle {
         )
     }
 
-    /// Handle with a given name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|handle| handle.as_str() == name)
     }

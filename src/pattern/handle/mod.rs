@@ -60,18 +60,16 @@ const AIM_RATIOS: Range<f64> = 0.5..2.0;
 /// Greatest number of halvings of an amount at which the sides of a seam do not stay equally long.
 const HALVINGS: u32 = 2;
 
-/// Displacement fields of the changed pieces, by the index of the piece.
+/// By index of the piece.
 type Fields = BTreeMap<usize, Field>;
-/// A style changed by a handle.
 struct Change {
     style: Style,
     fields: Fields,
 }
 
-/// A style changed by a handle in several steps.
+/// Change by a handle in several steps.
 struct Course {
     style: Style,
-    /// Displacement fields of each step.
     steps: Vec<Fields>,
 }
 
@@ -178,7 +176,6 @@ impl Style {
         }
     }
 
-    /// Applies one handle in a single step.
     fn moved_by(&self, handle: Handle, amount_m: f64) -> Result<Change, HandleError> {
         if !(-MOST_M..=MOST_M).contains(&amount_m) {
             return Err(HandleError::Amount { handle, amount_mm: mm(amount_m), most_mm: mm(MOST_M) });
@@ -255,7 +252,6 @@ impl Style {
         Ok(Change { style, fields })
     }
 
-    /// Name of a seam with its edges, for messages.
     fn seam_words(&self, number: usize) -> String {
         let seam = &self.seams[number];
         let side = |edges: &[crate::style::EdgeRef]| {

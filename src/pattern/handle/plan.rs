@@ -9,7 +9,6 @@ use geom::V2;
 /// Displacement of a point of an outline per unit of amount.
 #[derive(Clone, Copy, Debug)]
 pub struct Move {
-    /// Point that moves.
     pub at: EdgePoint,
     /// Displacement in the plane of the piece, m/m. For a point that gives way, its direction.
     pub by: V2,
@@ -18,12 +17,10 @@ pub struct Move {
 }
 
 impl Move {
-    /// Displacement of the point `at` by `by`.
     pub fn new(at: EdgePoint, by: V2) -> Self {
         Self { at, by, turns: false }
     }
 
-    /// Point `at` that stays, and at which a nearly straight edge may turn.
     pub fn turning(at: EdgePoint) -> Self {
         Self { at, by: V2::zeros(), turns: true }
     }
@@ -32,60 +29,51 @@ impl Move {
 /// Part of an edge between two arc lengths of the unchanged edge.
 #[derive(Clone, Copy, Debug)]
 pub struct Span {
-    /// Edge of the outline.
     pub edge: EdgeRef,
-    /// Arc lengths of both ends, m, clamped to the edge.
+    /// Clamped to the edge.
     pub arcs_m: [f64; 2],
 }
 
 impl Span {
-    /// The whole of an edge.
     pub fn whole(edge: EdgeRef) -> Self {
         Self { edge, arcs_m: [0.0, f64::INFINITY] }
     }
 }
 
-/// A weighted length in a sum.
 #[derive(Clone, Copy, Debug)]
 pub struct Term {
-    /// Part of an edge whose length counts.
     pub span: Span,
-    /// Weight of the length in the sum.
     pub factor: f64,
 }
 
 impl Term {
-    /// The whole length of an edge, with a weight.
     pub fn whole(edge: EdgeRef, factor: f64) -> Self {
         Self { span: Span::whole(edge), factor }
     }
 }
 
-/// Condition on the change of a weighted sum of lengths: sum(factor * change of length) = `change` * amount.
+/// Condition sum(factor * change of length) = `change` * amount.
 #[derive(Clone, Debug)]
 pub struct Condition {
-    /// Terms of the sum.
     pub terms: Vec<Term>,
-    /// Change of the sum, m/m of amount.
+    /// In m/m of amount.
     pub change: f64,
 }
 
 impl Condition {
-    /// Condition that the length of a chain changes by `change` m/m of amount.
+    /// `change` is in m/m of amount.
     pub fn chain(chain: &Chain, change: f64) -> Self {
         Self::edges(&chain.iter().map(|step| step.edge).collect::<Vec<_>>(), change)
     }
 
-    /// Condition that the total length of some edges changes by `change` m/m of amount.
+    /// The total length changes by `change` m/m of amount.
     pub fn edges(edges: &[EdgeRef], change: f64) -> Self {
         Self { terms: edges.iter().map(|edge| Term::whole(*edge, 1.0)).collect(), change }
     }
 }
 
-/// Plan of the change of a style by a handle.
 #[derive(Clone, Debug, Default)]
 pub struct Plan {
-    /// Driven and held points.
     pub moves: Vec<Move>,
     /// Groups of points that give way. The points of a group share one unknown factor, as small as the conditions
     /// permit.
@@ -95,17 +83,15 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Drives a point by `by` m/m of amount.
+    /// `by` is in m/m of amount.
     pub fn drive(&mut self, at: EdgePoint, by: V2) {
         self.moves.push(Move::new(at, by));
     }
 
-    /// Lets a point give way along `by`.
     pub fn give(&mut self, at: EdgePoint, by: V2) {
         self.gives.push(vec![Move::new(at, by)]);
     }
 
-    /// Holds the corners between the edges of a chain in place.
     pub fn hold(&mut self, anatomy: &Anatomy<'_>, chain: &Chain) {
         let corners = chain.windows(2).flat_map(|pair| ends_between(anatomy, pair));
         self.moves.extend(corners.map(|at| Move::new(at, V2::zeros())));
@@ -122,12 +108,10 @@ impl Plan {
     }
 }
 
-/// Start of a chain.
 pub fn start(chain: &Chain) -> EdgeEnd {
     chain[0].other()
 }
 
-/// End of a chain.
 pub fn end(chain: &Chain) -> EdgeEnd {
     chain[chain.len() - 1]
 }
@@ -145,7 +129,7 @@ pub fn ends_between(anatomy: &Anatomy<'_>, pair: &[EdgeEnd]) -> Vec<EdgePoint> {
     [Some(pair[0]), Some(below).filter(|_| !is_one)].into_iter().flatten().map(|end| anatomy.point(end)).collect()
 }
 
-/// Corners of a piece, each as the start of an edge.
+/// Each as the start of an edge.
 pub fn corners(anatomy: &Anatomy<'_>, piece: usize) -> Vec<EdgeEnd> {
     (0..anatomy.style().pieces[piece].edges.len()).map(|edge| EdgeEnd::new(EdgeRef { piece, edge }, false)).collect()
 }

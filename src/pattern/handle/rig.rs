@@ -45,13 +45,12 @@ pub struct Rig<'a> {
     outlines: BTreeMap<usize, Outline>,
 }
 
-/// Outline of a piece with its knots.
 struct Outline {
     /// Vertices, the first one repeated at the end, and their arc lengths.
     line: Polyline,
     /// Index of the first vertex of each edge, then of the last vertex of the last edge.
     firsts: Vec<usize>,
-    /// Arc lengths of the knots in increasing order.
+    /// Arc lengths, increasing.
     knots: Vec<f64>,
     /// Arc lengths of the knots at which a nearly straight edge may turn.
     turning: Vec<f64>,
@@ -64,7 +63,6 @@ pub fn is_sharp(style: &Style, EdgeEnd { edge: EdgeRef { piece, edge }, is_last 
 }
 
 impl<'a> Rig<'a> {
-    /// Makes outlines with knots at the points of some moves.
     pub fn new<'m>(style: &'a Style, moves: impl Iterator<Item = &'m Move>) -> Self {
         let mut outlines: BTreeMap<usize, Outline> = BTreeMap::new();
         for moved in moves {
@@ -100,7 +98,7 @@ impl<'a> Rig<'a> {
         style
     }
 
-    /// Displacement of every vertex by some moves, m/m of amount.
+    /// In m/m of amount.
     pub fn displacement(&self, moves: &[Move]) -> Displacement {
         let edges = |(piece, outline): (&usize, &Outline)| {
             let own: Vec<Move> = moves.iter().filter(|m| m.at.edge.piece == *piece).copied().collect();
@@ -114,7 +112,6 @@ impl<'a> Rig<'a> {
 }
 
 impl Outline {
-    /// Outline of the edges of a piece, with their sharp corners as knots.
     fn new(edges: &[Edge]) -> Option<Self> {
         let mut points = Vec::new();
         let mut firsts = vec![0];
@@ -136,14 +133,13 @@ impl Outline {
         self.line.length()
     }
 
-    /// True if the outline has a corner at a vertex.
     fn is_sharp(&self, vertex: usize) -> bool {
         let (points, n) = (self.line.points(), self.line.points().len() - 1);
         let at = points[vertex % n];
         (at - points[(vertex + n - 1) % n]).angle(&(points[vertex % n + 1] - at)) > SMOOTH_RAD
     }
 
-    /// Arc length of a point that moves, m. The end of the outline counts as its beginning.
+    /// The end of the outline counts as its beginning.
     fn arc_m(&self, moved: &Move) -> f64 {
         let arc_m = self.line.arcs()[self.firsts[moved.at.edge.edge]] + moved.at.arc_m;
         if arc_m > self.length_m() - SAME_M { 0.0 } else { arc_m }
@@ -161,7 +157,7 @@ impl Outline {
         }
     }
 
-    /// Displacement of each knot: the sum of the moves at the knot.
+    /// Sum of the moves at each knot.
     fn told(&self, moves: &[Move]) -> Vec<V2> {
         let mut told = vec![V2::zeros(); self.knots.len()];
         for moved in moves {
@@ -180,7 +176,7 @@ impl Outline {
         })
     }
 
-    /// Intervals of arc length in which some moves bend the outline, m.
+    /// In arc length.
     fn bent(&self, moves: &[Move]) -> Vec<[f64; 2]> {
         let told = self.told(moves);
         let is_moved = |knot: usize| told[knot] != V2::zeros();
@@ -194,7 +190,7 @@ impl Outline {
         arcs.collect()
     }
 
-    /// Displacement of each vertex. The first vertex occurs once.
+    /// The first vertex occurs once.
     fn moved(&self, moves: &[Move]) -> Vec<V2> {
         let told = self.told(moves);
         let n = self.line.points().len() - 1;
@@ -237,10 +233,8 @@ fn refined(line: &Polyline, knots: &[f64]) -> Polyline {
     Polyline::new(points).unwrap_or_else(|| line.clone())
 }
 
-/// Section of an outline between two knots.
 struct Section {
-    /// Arc lengths of both ends, m. The second exceeds the length of the outline if the section passes the first
-    /// vertex.
+    /// The second exceeds the length of the outline if the section passes the first vertex.
     arcs_m: [f64; 2],
     ends: [V2; 2],
     /// Unit vectors along the outline at both ends.
@@ -248,9 +242,7 @@ struct Section {
     /// True if points are parametrised by their projection onto the chord. Where the section turns back, they are
     /// parametrised by arc length.
     by_chord: bool,
-    /// True for an end at a corner.
     is_corner: [bool; 2],
-    /// Kind of the section.
     kind: Kind,
 }
 

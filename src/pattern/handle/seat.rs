@@ -12,7 +12,6 @@ use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef};
 use geom::V2;
 
-/// Wedge across one face of the legs.
 pub struct Wedge {
     face: Face,
     /// Height of the wedge, as a share of the way from the hip to the waist.
@@ -84,7 +83,7 @@ pub fn depth(body: &Body<'_>) -> Option<Plan> {
     (!body.legs.is_empty()).then_some(plan)
 }
 
-/// Seat seam and outseam of one face of a leg, with the arc lengths from the waist at which the hip level meets them, m.
+/// Arc lengths are from the waist to the hip level, m.
 struct Hips<'l> {
     crotch: &'l Chain,
     outer: &'l Chain,
@@ -100,7 +99,6 @@ fn hips<'l>(body: &Body<'_>, leg: &'l Legs<'_>, face: Face) -> Option<Hips<'l>> 
     Some(Hips { crotch, outer, at_m: [met(body.anatomy, crotch, hip)?, met(body.anatomy, outer, hip)?] })
 }
 
-/// Upper edges of a piece of a leg.
 fn waist_of(leg: &Legs<'_>, piece: usize) -> Vec<EdgeRef> {
     leg.waist.iter().copied().filter(|edge| edge.piece == piece).collect()
 }
@@ -176,7 +174,6 @@ pub fn fork(body: &Body<'_>) -> Option<Plan> {
     (!body.legs.is_empty()).then_some(plan)
 }
 
-/// Holds the seat seams at the hip level.
 pub fn hold_hip(body: &Body<'_>, plan: &mut Plan) {
     for leg in &body.legs {
         let points = leg.points();

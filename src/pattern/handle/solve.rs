@@ -8,7 +8,7 @@ use super::rig::{Displacement, Rig};
 use crate::style::{EdgeRef, Style};
 use geom::polyline::Polyline;
 
-/// Step of the finite differences of lengths, m.
+/// In m.
 const DIFFERENCE_M: f64 = 1e-6;
 /// Residual below which a condition holds, m: a thousandth of the accepted change of a seam or length.
 const HOLDS_M: f64 = 1e-7;
@@ -17,25 +17,18 @@ const MOST_STEPS: usize = 12;
 /// Regularisation of the normal matrix J J^T, for linearly dependent conditions.
 const REGULAR: f64 = 1e-9;
 
-/// Residual of a seam.
 pub struct SeamResidual {
-    /// Index of the seam.
     pub seam: usize,
-    /// Change of the difference between the lengths of its two sides, m.
+    /// Change of the difference between the lengths of its two sides.
     pub off_m: f64,
 }
 
-/// Displaced outlines, and residuals.
 pub struct Solved {
-    /// Lines of all edges of the affected pieces.
     pub lines: BTreeMap<usize, Vec<Polyline>>,
-    /// Residuals of the seams.
     pub seams: Vec<SeamResidual>,
-    /// Residual of each condition of the plan, m.
     pub conditions_m: Vec<f64>,
 }
 
-/// The style with enough vertices on the edges that a plan bends.
 pub fn refined(style: &Style, plan: &Plan) -> Style {
     let moves: Vec<Move> = all_moves(plan).copied().collect();
     Rig::new(style, moves.iter()).refined(&moves)
@@ -107,7 +100,6 @@ struct System<'a> {
 }
 
 impl System<'_> {
-    /// Displaced edges of the affected pieces.
     fn lines(&self, given: &[f64]) -> BTreeMap<usize, Vec<Polyline>> {
         let edges = |piece: usize| (0..self.style.pieces[piece].edges.len()).map(move |edge| EdgeRef { piece, edge });
         let lines =
@@ -129,7 +121,7 @@ impl System<'_> {
         Polyline::new(points).unwrap_or_else(|| line.clone())
     }
 
-    /// Residual of each condition, m.
+    /// In m.
     fn missed(&self, given: &[f64]) -> Vec<f64> {
         let mut kept = BTreeMap::new();
         let mut change_m = |span: &Span| {

@@ -17,7 +17,6 @@ fn drafted(model: Model, size: usize) -> Style {
     Style::read(&draft.pieces, model.seams(), "seams").expect("our own draft")
 }
 
-/// Every drafted style in all its sizes, with its name.
 fn styles() -> Vec<(String, Style)> {
     let all = Model::ALL.into_iter().flat_map(|model| (0..model.drafts().len()).map(move |size| (model, size)));
     all.map(|(model, size)| (format!("{} {size}", model.as_str()), drafted(model, size))).collect()
@@ -27,13 +26,13 @@ fn points_mm(style: &Style) -> Vec<(Point, f64)> {
     style.points_of_measure().iter().map(|measure| (measure.point, mm(measure.length_m))).collect()
 }
 
-/// Length of the first side of each seam minus that of its second, mm.
+/// Length of the first side of each seam minus that of its second.
 fn gaps_mm(style: &Style) -> Vec<f64> {
     let length = |side: &[EdgeRef]| side.iter().map(|edge| style.edge(*edge).line.length()).sum::<f64>();
     style.seams.iter().map(|seam| mm(length(&seam.a) - length(&seam.b))).collect()
 }
 
-/// Greatest distance of a vertex of one outline from the other, m.
+/// In m.
 fn farthest_m(outline: &[V2], other: &[V2]) -> f64 {
     let off = |from: &[V2], to: &[V2]| from.iter().map(|p| boundary_distance(to, p)).fold(0.0, f64::max);
     off(outline, other).max(off(other, outline))
@@ -56,7 +55,6 @@ fn kinks(piece: &StylePiece) -> Vec<(f64, usize)> {
     piece.edges.iter().map(|edge| parted(turns(edge.line.points()))).collect()
 }
 
-/// Angles at the corners between the edges of a piece, degrees.
 fn angles_deg(piece: &StylePiece) -> Vec<f64> {
     let n = piece.edges.len();
     let corner = |k: usize| {
@@ -443,7 +441,6 @@ fn redrawn_pieces_make_the_changed_style_by_the_same_seam_file() {
     check(Model::Dress, &[(Waist, -0.01), (NeckWidth, 0.01), (SkirtLength, 0.03)]);
 }
 
-/// The seam file has corners as shares of their piece, which a handle changes.
 #[test]
 fn a_seam_file_that_tells_where_corners_lie_tells_where_they_have_gone() {
     let draft = Model::Tshirt.drafts().swap_remove(0);

@@ -89,7 +89,7 @@ pub fn neck_depth(body: &Body<'_>, face: Face) -> Option<Plan> {
     Some(plan)
 }
 
-/// Points of the neckline at its centre, front or back: one, or one on each half.
+/// One, or one on each half.
 pub fn neck_centres(body: &Body<'_>, face: Face) -> Option<Vec<EdgePoint>> {
     let (trunk, anatomy) = (body.trunk.as_ref()?, body.anatomy);
     if let Centre::Within(at) = trunk.neck_centre(face)? {
@@ -128,9 +128,8 @@ pub fn armhole_depth(body: &Body<'_>) -> Option<Plan> {
     Some(plan)
 }
 
-/// One side of a shoulder seam.
 struct Shoulder {
-    /// Edges, directed outwards from the neck.
+    /// Directed outwards from the neck.
     seam: Chain,
     /// Unit vector from the neck to the shoulder point.
     outwards: V2,
@@ -165,7 +164,6 @@ fn armholes_keep(body: &Body<'_>, plan: &mut Plan) {
     sleeves_follow(body, plan);
 }
 
-/// Lets the joints between the edges of an armhole give way along it.
 fn slide_joints(body: &Body<'_>, plan: &mut Plan, face: &Armhole) {
     for edge in &face.edges {
         let corner = body.anatomy.style().over_corner(EdgeEnd::new(*edge, true));

@@ -14,33 +14,27 @@ use geom::V2;
 
 /// Names of the column that identifies the piece of a row.
 const PIECE: [&str; 4] = ["piece", "name", "piece name", "block"];
-/// Greatest size of a table, bytes.
 const MOST_BYTES: usize = 16 << 20;
 /// Length of a grain line from a table, as a share of the extent of the piece along it.
 const GRAIN_SHARE: f64 = 0.5;
 
-/// Error of using a table of piece information.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}{}{}: found {found}; accepted: {accepted}",
     row.map(|row| format!(", row {row}")).unwrap_or_default(),
     column.as_ref().map(|column| format!(", column `{column}`")).unwrap_or_default())]
 pub struct InfoError {
-    /// Name of the file.
     pub file: String,
-    /// Row number. The row of column names is 1.
+    /// The row of column names is 1.
     pub row: Option<usize>,
-    /// Heading of the column. `None` if the error is in no column.
+    /// `None` if the error is in no column.
     pub column: Option<String>,
-    /// Description of what was found.
     pub found: String,
-    /// Description of what is accepted.
     pub accepted: String,
 }
 
 /// Cells of a row, with its number in the file.
 type Row = (usize, Vec<String>);
 
-/// A table of piece information.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PieceTable {
     file: String,
@@ -158,7 +152,6 @@ impl PieceTable {
         Ok(meant)
     }
 
-    /// Applies one cell to a piece.
     fn tell(&self, piece: &mut Piece, row: usize, column: usize, value: &str) -> Result<(), InfoError> {
         let key = self.columns[column].trim();
         if value.is_empty() || key.is_empty() {
@@ -197,7 +190,6 @@ impl PieceTable {
     }
 }
 
-/// Accepted names, from the message of serde for an unknown role.
 fn accepted_roles(error: &serde_json::Error) -> String {
     let text = error.to_string();
     text.split_once("expected one of ").map_or(text.clone(), |(_, names)| names.replace('`', ""))

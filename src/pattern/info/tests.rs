@@ -79,7 +79,6 @@ fn wrong_tables_are_refused_with_row_and_column() {
     check(b"PK\x03\x04and no more", None, None, "cut off");
 }
 
-/// A workbook as a ZIP archive of some parts, every other one stored.
 fn workbook(parts: &[(&str, String)]) -> Vec<u8> {
     let (mut bytes, mut central) = (Vec::new(), Vec::new());
     for (k, (name, text)) in parts.iter().enumerate() {
@@ -105,7 +104,6 @@ fn workbook(parts: &[(&str, String)]) -> Vec<u8> {
     [bytes, central, end.concat()].concat()
 }
 
-/// The table of [`CSV`] as a workbook.
 fn excel() -> Vec<u8> {
     let mut rows = String::new();
     let mut shared: Vec<String> = Vec::new();

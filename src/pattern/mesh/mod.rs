@@ -16,84 +16,51 @@ use geom::V2;
 use geom::polyline::signed_area;
 use geom::units::mm;
 
-/// Range of accepted edge lengths, m.
 pub const EDGE_LENGTH_RANGE_M: Range<f64> = 1e-3..0.2;
 
 /// Greatest number of triangles of a mesh. A coat at 5 mm has a quarter of it, and a drape of so many would take more
 /// than a day.
 const MOST_TRIANGLES: f64 = 400_000.0;
 
-/// Error of meshing a style.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MeshError {
-    /// The edge length is out of range.
     #[error("edge length {found_mm} mm; accepted: {least_mm} to {greatest_mm} mm")]
-    EdgeLength {
-        /// Requested length, mm.
-        found_mm: f64,
-        /// Least accepted, mm.
-        least_mm: f64,
-        /// Greatest accepted, mm.
-        greatest_mm: f64,
-    },
-    /// The mesh would have more triangles than can be draped.
+    EdgeLength { found_mm: f64, least_mm: f64, greatest_mm: f64 },
     #[error(
         "about {thousands} thousand triangles at edge length {edge_length_mm} mm (pieces of {area_m2:.1} m2, the longest {longest_m:.1} m \
          long); accepted: at most 400 thousand; is the unit of the pattern right?"
     )]
-    TooFine {
-        /// Requested edge length, mm.
-        edge_length_mm: f64,
-        /// Number of triangles that the mesh would have, in thousands.
-        thousands: u64,
-        /// Area of all pieces, m2.
-        area_m2: f64,
-        /// Length of the longest piece, m.
-        longest_m: f64,
-    },
+    TooFine { edge_length_mm: f64, thousands: u64, area_m2: f64, longest_m: f64 },
     /// The outline, sampled at the edge length, crosses itself or cannot be triangulated.
     #[error(
         "piece `{piece}` at edge length {edge_length_mm} mm: {reason}; accepted: an outline free of crossings, or a shorter edge length"
     )]
-    Piece {
-        /// Identifier of the piece.
-        piece: String,
-        /// Requested edge length, mm.
-        edge_length_mm: f64,
-        /// Reason as text.
-        reason: String,
-    },
-    /// A straight measurement leaves its piece.
+    Piece { piece: String, edge_length_mm: f64, reason: String },
     #[error(
         "{place}: the line from {from} to {to} (mm) leaves piece `{piece}`; accepted: points that see each other across the cloth"
     )]
     LineLeavesPiece {
         /// Measurement or fit level.
         place: String,
-        /// Identifier of the piece.
         piece: String,
-        /// First end of the line in the plane of the piece, as text, mm.
+        /// In the plane of the piece, as text, mm.
         from: String,
-        /// Second end of the line in the plane of the piece, as text, mm.
+        /// In the plane of the piece, as text, mm.
         to: String,
     },
 }
 
-/// Quality of the triangles of a garment.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct MeshQuality {
-    /// Least angle of any triangle, degrees.
     pub min_angle_deg: f64,
-    /// Least edge length, m.
     pub min_edge_m: f64,
-    /// Greatest edge length, m.
     pub max_edge_m: f64,
-    /// Mean over all edges of all triangles, m: an inner edge counts twice.
+    /// Mean over all edges of all triangles: an inner edge counts twice.
     pub mean_edge_m: f64,
 }
 
 impl MeshQuality {
-    /// Quality of the triangles of a garment at rest. `None` without triangles.
+    /// Of the garment at rest. `None` without triangles.
     pub fn of(garment: &Garment) -> Option<Self> {
         let mut lengths = Vec::new();
         let mut min_angle = f64::INFINITY;
@@ -112,7 +79,6 @@ impl MeshQuality {
 }
 
 impl Style {
-    /// Refuses meshes with too many triangles before any work is done.
     fn check_bounds(&self, edge_length_m: f64) -> Result<(), MeshError> {
         let outlines: Vec<Vec<V2>> = self.pieces.iter().map(StylePiece::outline).collect();
         let area_m2: f64 = outlines.iter().map(|outline| signed_area(outline).abs()).sum();
@@ -129,7 +95,6 @@ impl Style {
         })
     }
 
-    /// Meshes the style with edges of about `edge_length_m`.
     pub fn mesh(&self, edge_length_m: f64) -> Result<Garment, MeshError> {
         if !EDGE_LENGTH_RANGE_M.contains(&edge_length_m) {
             return Err(MeshError::EdgeLength {
@@ -258,13 +223,12 @@ fn boundary(first_vertex: usize, edges: &[EdgeSamples]) -> Vec<Vec<usize>> {
     found
 }
 
-/// A garment under construction.
 #[derive(Default)]
 struct Assembly {
     pieces: Vec<PieceMesh>,
     rest: Vec<V2>,
     triangles: Vec<[usize; 3]>,
-    /// Garment vertices of each edge, by piece and edge.
+    /// By piece and edge.
     boundary: Vec<Vec<Vec<usize>>>,
 }
 

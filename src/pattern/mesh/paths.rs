@@ -12,14 +12,12 @@ const SAME_SHARE: f64 = 1e-6;
 /// Greatest distance between a drawn curve and the mesh boundary, which consists of chords, m.
 const OFF_CURVE_M: f64 = 3e-3;
 
-/// Intersection of a segment with the side of a triangle.
 struct Crossing {
     /// Parameter along the segment, 0 to 1.
     share: f64,
     point: MaterialPoint,
 }
 
-/// Tracer of paths on the mesh of a style.
 pub struct Layer<'a> {
     style: &'a Style,
     samples: &'a [Vec<EdgeSamples>],
@@ -46,7 +44,7 @@ impl<'a> Layer<'a> {
         Self { style, samples, boundary, garment, triangle_of }
     }
 
-    /// Lines of a path on the mesh. `place` is the name of the path for messages.
+    /// `place` is the name of the path for messages.
     pub fn runs(&self, place: &str, path: &[PathPart]) -> Result<Vec<MaterialLine>, MeshError> {
         path.iter()
             .map(|part| match *part {
@@ -101,7 +99,7 @@ impl<'a> Layer<'a> {
         })
     }
 
-    /// Intersections of a segment with the sides of some triangles, in order along the segment.
+    /// In order along the segment.
     fn crossings(&self, triangles: std::ops::Range<usize>, segment: (V2, V2)) -> Vec<Crossing> {
         let mut crossings: Vec<Crossing> = Vec::new();
         for &triangle in &self.garment.triangles[triangles] {

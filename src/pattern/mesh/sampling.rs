@@ -7,20 +7,18 @@ use crate::style::{EdgePoint, EdgeRef, PathPart, Seam, Style};
 
 /// Distance, in target edge lengths, below which marks of different sides of a seam become one vertex pair.
 const MERGE_SHARE: f64 = 0.25;
-/// Difference below which arc lengths count as equal, m.
+/// In m.
 const SAME_M: f64 = 1e-9;
 
-/// Vertices along one edge.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EdgeSamples {
-    /// Arc lengths, increasing, both ends included.
+    /// Increasing, both ends included.
     pub arcs: Vec<f64>,
 }
 
-/// Vertices along all edges.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Samples {
-    /// Vertices by piece and edge.
+    /// By piece and edge.
     pub edges: Vec<Vec<EdgeSamples>>,
     /// Vertex pairs of each seam, in order along the seam.
     pub seams: Vec<Vec<[EdgeSample; 2]>>,
@@ -29,13 +27,12 @@ pub struct Samples {
 /// One vertex along an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct EdgeSample {
-    /// Edge.
     pub edge: EdgeRef,
-    /// Index into [`EdgeSamples::arcs`].
+    /// Into [`EdgeSamples::arcs`].
     pub index: usize,
 }
 
-/// Divides all edges of a style into segments of about `h`, m.
+/// Segments are about `h` long, m.
 pub fn sample(style: &Style, h: f64) -> Samples {
     let marks = marks(style);
     let mut edges: Vec<Vec<EdgeSamples>> =
@@ -66,7 +63,7 @@ pub fn sample(style: &Style, h: f64) -> Samples {
     Samples { edges, seams }
 }
 
-/// Arc lengths at which each edge must have a vertex, both ends included.
+/// Arc lengths, both ends included.
 fn marks(style: &Style) -> Vec<Vec<Vec<f64>>> {
     let edge_marks = |line: &geom::polyline::Polyline, corners: &[f64]| {
         let mut marks = vec![0.0];
@@ -94,7 +91,7 @@ fn marks(style: &Style) -> Vec<Vec<Vec<f64>>> {
     marks
 }
 
-/// Divides the intervals between marks evenly.
+/// Divides evenly.
 fn divide(marks: &[f64], h: f64) -> Vec<f64> {
     let mut arcs = vec![marks[0]];
     for ends in marks.windows(2) {
@@ -132,7 +129,7 @@ impl<'a> Side<'a> {
         self.joints[self.joints.len() - 1]
     }
 
-    /// Distances of the marks along the side, m.
+    /// In m.
     fn marks(&self, marks: &[Vec<Vec<f64>>]) -> Vec<f64> {
         let on_edge = |(k, edge): (usize, &EdgeRef)| {
             let length = self.style.edge(*edge).line.length();
@@ -145,7 +142,7 @@ impl<'a> Side<'a> {
         all
     }
 
-    /// Points of one edge at some distances along the side: the edge at the distance `middle`.
+    /// Points of the edge at the distance `middle`.
     fn on_edge(&self, middle: f64, distances: &[f64]) -> Vec<EdgePoint> {
         let k = self.joints.partition_point(|&joint| joint <= middle).clamp(1, self.chain.len()) - 1;
         let edge = self.chain[k];
@@ -166,7 +163,6 @@ struct Mark {
     is_of: [bool; 2],
 }
 
-/// Vertex pairs of a seam.
 fn seam_pairs(style: &Style, seam: &Seam, marks: &[Vec<Vec<f64>>], h: f64) -> Vec<[EdgePoint; 2]> {
     let sides = [Side::new(style, &seam.a, true), Side::new(style, &seam.b, seam.b_forwards)];
     let mut pairs: Vec<[EdgePoint; 2]> = Vec::new();

@@ -64,10 +64,7 @@ pub enum GrowthError {
     #[error(transparent)]
     Style(#[from] StyleError),
     #[error("piece `{piece}`: {found}; accepted: sizes nearer to the sample size")]
-    Piece {
-        piece: String,
-        found: String,
-    },
+    Piece { piece: String, found: String },
     /// The sides come apart in a size.
     #[error(
         "seam `{seam}`: its sides come apart by {off_mm:.1} mm when {by}; accepted: {within_mm} mm, besides what ease and gathers grow by"
