@@ -15,7 +15,6 @@ const GAP_M: f64 = 0.06;
 /// Greatest angle by which a piece is turned to set its grain line straight. Further off, it is cut on the bias.
 const STRAIGHTEN_DEG: f64 = 30.0;
 
-/// Rigid placement of a piece in the layout.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placed {
     /// Counter-clockwise, radians.

@@ -33,7 +33,6 @@ pub struct Finding {
 pub enum FindingKind {
     /// Edge in no seam, with no measurement along it, and not listed as `open`.
     FreeEdge,
-    /// Drawn piece that the seam file does not use.
     UnusedPiece,
     Gathered,
     /// One side seems to run in the wrong direction.

@@ -68,7 +68,6 @@ impl Random {
         (self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 33) as usize % bound.max(1)
     }
 
-    /// Changes one to three places.
     fn damage(&mut self, bytes: &mut Vec<u8>) {
         for _ in 0..1 + self.below(3) {
             let at = self.below(bytes.len());
@@ -103,7 +102,6 @@ impl Random {
     }
 }
 
-/// One small block with every kind of entity.
 const DRAWING: &str = "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n8\n0\n2\nP\n10\n0\n20\n0\n0\nLWPOLYLINE\n8\n1\n90\n3\n70\n1\n10\n0\n20\n0\n42\n0.2\n\
 10\n90\n20\n0\n42\n0\n10\n90\n20\n90\n42\n0\n0\nPOLYLINE\n8\n8\n66\n1\n70\n0\n0\nVERTEX\n8\n8\n10\n50\n20\n10\n0\nVERTEX\n8\n8\n10\n60\n20\n20\n\
 0\nSEQEND\n8\n8\n0\nPOINT\n8\n4\n10\n0\n20\n0\n30\n4\n0\nTEXT\n8\n1\n10\n9\n20\n9\n40\n3\n1\n# 1\n0\nARC\n8\n14\n10\n50\n20\n20\n40\n5\n50\n0\n\
@@ -115,7 +113,6 @@ LINE\n8\n1\n10\n300\n20\n0\n11\n300\n21\n90\n0\nLINE\n8\n1\n10\n300\n20\n90\n11\
 const RULES: &str =
     "UNITS: METRIC\nNUMBER OF SIZES: 2\nSIZE LIST: S M\nSAMPLE SIZE: S\nRULE: DELTA 1\n0.0, 0.0  5.0, 5.0\nEND\n";
 
-/// Reads damaged copies, and returns the number of those that could still be read.
 fn survivors(whole: &[u8], rounds: usize, seed: u64, mut is_read: impl FnMut(&[u8]) -> bool) -> usize {
     assert!(is_read(whole), "the whole file reads");
     let mut random = Random(seed);

@@ -8,17 +8,13 @@ use std::ops::Range;
 
 use geom::{V2, V3};
 
-/// Part of the garment, which decides where the piece is placed about the body.
+/// Part of the garment, which decides where the piece is placed about the body. Left and right are the subject's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Role {
-    /// Of the trunk.
     Front,
-    /// Of the trunk.
     Back,
-    /// Of the subject's right arm.
     SleeveRight,
-    /// Of the subject's left arm.
     SleeveLeft,
     LegFrontRight,
     LegFrontLeft,
@@ -35,7 +31,6 @@ pub enum Role {
     SkirtFront,
     SkirtBack,
     Waistband,
-    /// None of these, or unknown.
     Other,
 }
 
@@ -87,7 +82,7 @@ impl Role {
     }
 }
 
-/// One triangulated piece, by its ranges in the garment's arrays.
+/// One triangulated piece: its ranges in the garment's arrays.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct PieceMesh {
     /// Such as `front`, `sleeve_right`.
@@ -130,7 +125,6 @@ impl MaterialPoint {
         (0..3).map(|k| positions[self.vertices[k]] * self.weights[k]).sum()
     }
 
-    /// Position in the plane of the piece.
     pub fn at_rest(&self, rest: &[V2]) -> V2 {
         (0..3).map(|k| rest[self.vertices[k]] * self.weights[k]).sum()
     }
@@ -207,9 +201,7 @@ pub fn excesses(ways: &[V3], steps: &[f64]) -> Vec<f64> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MeasurementKind {
-    /// Loop round body or limb.
     ClosedGirth,
-    /// Has two ends.
     OpenLength,
 }
 
@@ -218,7 +210,6 @@ pub enum MeasurementKind {
 pub struct Measurement {
     /// 1 for `#1`.
     pub no: u32,
-    /// Such as `Neck Opening`.
     pub name: String,
     pub kind: MeasurementKind,
     /// True along an edge that is in no seam.
@@ -230,7 +221,6 @@ pub struct Measurement {
 }
 
 impl Measurement {
-    /// Length L3D.
     pub fn length_m(&self, rest: &[V2], positions: &[V3]) -> f64 {
         self.runs.iter().map(|run| run.length_m(rest, positions)).sum()
     }
@@ -257,7 +247,6 @@ pub enum Band {
     Waistband,
 }
 
-/// Reinforcement of a part of an edge.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Reinforcement {
     pub band: Band,
@@ -272,7 +261,6 @@ pub struct Reinforcement {
 /// A sewable garment of one size, meshed.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Garment {
-    /// From the seam file of the style.
     pub name: String,
     /// Empty if the file names none.
     pub size: String,
@@ -290,7 +278,6 @@ pub struct Garment {
     pub edge_length_m: f64,
 }
 
-/// A point on a piece, for messages.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spot {
     pub piece: String,

@@ -12,7 +12,6 @@ use geom::units::mm;
 
 const MM2_PER_M2: f64 = 1e6;
 
-/// Content of one pattern file, or the reason why it cannot be read.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FileReport {
     pub file: String,
@@ -23,27 +22,25 @@ pub struct FileReport {
     pub pieces: Vec<PieceReport>,
     pub refused: Vec<Refused>,
     pub warnings: Vec<String>,
-    /// Number of unused entities by layer.
+    /// Number of entities by layer.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub unused: BTreeMap<String, usize>,
     pub error: Option<String>,
-    /// Names of blocks byte for byte as in the file ([`PatternFile::as_written`]), by the names in its code page, where
-    /// the two differ.
+    /// Block names byte for byte ([`PatternFile::as_written`]), by the names in the code page, where the two differ.
     #[serde(skip)]
     pub written: BTreeMap<String, String>,
 }
 
+/// Piece as the file stores it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PieceReport {
     /// In the file's code page.
     pub block: String,
-    /// In the file's code page. Name of the block if the file gives none.
+    /// In the file's code page, or the block if the file gives none.
     pub name: String,
-    /// Size as the piece or the file names it.
     pub size: Option<String>,
-    /// As written.
     pub quantity: Option<String>,
-    /// As drawn, before any repair.
+    /// Outline as drawn, before any repair.
     pub perimeter_mm: f64,
     pub area_mm2: f64,
     /// Always true, because a piece with an open outline is refused.
@@ -102,7 +99,7 @@ impl FileReport {
         }
     }
 
-    /// Report for other programs: names of blocks byte for byte as in the file, whatever the code page of its reader.
+    /// Names blocks byte for byte as in the file, for other programs, whatever their code page.
     pub fn as_written(mut self) -> Self {
         let blocks = self.pieces.iter_mut().map(|piece| &mut piece.block);
         for block in blocks.chain(self.refused.iter_mut().map(|refused| &mut refused.block)) {
@@ -114,6 +111,7 @@ impl FileReport {
     }
 }
 
+/// Block names that are not written as they read.
 fn written_names(file: &PatternFile) -> BTreeMap<String, String> {
     let blocks = file.pieces.iter().map(|piece| &piece.block).chain(file.refused.iter().map(|refused| &refused.block));
     blocks.map(|block| (block.clone(), file.as_written(block))).filter(|(read, written)| read != written).collect()

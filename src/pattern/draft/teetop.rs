@@ -7,9 +7,7 @@ use super::trunk::{FrontNeck, Trunk, TrunkPlan};
 use geom::V2;
 use geom::units::from_mm;
 
-/// Below the side-neck points.
 const BACK_NECK_DROP_M: f64 = 0.030;
-/// Share of the depth of the armhole.
 const CAP_HEIGHT_SHARE: f64 = 0.78;
 
 /// Published lengths `#1` to `#9`, mm [T tables 6-23, 6-26].

@@ -40,7 +40,6 @@ fn the_files_sew_into_the_published_lengths() {
     }
 }
 
-/// Published lengths by garment, size and number, without erroneous and rejected ones.
 fn published_table() -> Option<BTreeMap<(String, String, usize), f64>> {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/thesis/published_measurements.csv");
     let text = std::fs::read_to_string(path).ok()?;

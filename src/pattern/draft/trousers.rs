@@ -109,7 +109,6 @@ impl Plan {
         [knee, knee + (knee - hem).normalize() * ((end - knee).norm() / 3.0)]
     }
 
-    /// From the hem to a fork at height `v`.
     fn inseam_to(&self, v: f64) -> Vec<V2> {
         let fork = V2::new(self.hip - self.side() + self.fork, v);
         let [knee, above] = self.on_from_knee(1.0, fork);

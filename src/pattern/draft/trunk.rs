@@ -5,7 +5,6 @@ use crate::curve::{bezier, bisect, length};
 use crate::piece::{Notch, Piece};
 use geom::V2;
 
-/// Below the horizontal.
 pub const SHOULDER_SLOPE_DEG: f64 = 20.0;
 /// Difference between the length of the front armhole and the mean of both.
 const ARMHOLE_BALANCE_M: f64 = 0.003;
@@ -25,7 +24,6 @@ pub enum FrontNeck {
 pub struct TrunkPlan {
     /// Half, from the centre line to the side. For a straight edge, only its end.
     pub lower: Vec<V2>,
-    /// Upper end of the side.
     pub underarm: V2,
     /// Heights of the neck points at front and back.
     pub centre: [f64; 2],
@@ -34,7 +32,6 @@ pub struct TrunkPlan {
     pub front_neck: FrontNeck,
     /// Opening, all round.
     pub neck: f64,
-    /// Length of each seam.
     pub shoulder: f64,
     /// Length, front and back together.
     pub armhole: f64,

@@ -7,9 +7,7 @@ use super::trunk::{FrontNeck, Trunk, TrunkPlan};
 use geom::V2;
 use geom::units::from_mm;
 
-/// Below the side-neck points.
 const BACK_NECK_DROP_M: f64 = 0.022;
-/// Share of the depth of the armhole.
 const CAP_HEIGHT_SHARE: f64 = 0.56;
 
 pub const TSHIRT_SEAMS: &[u8] = include_bytes!("tshirt.seams.toml");

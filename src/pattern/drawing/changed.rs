@@ -24,7 +24,6 @@ const LINE_MM: f64 = 24.0;
 const LABEL_MM: V2 = V2::new(8.2, 16.0);
 /// Distances of a label from the tip of its arrow that are tried.
 const DISTANCES_MM: [f64; 6] = [18.0, 27.0, 38.0, 52.0, 70.0, 95.0];
-/// Directions that are tried at each distance.
 const DIRECTIONS: u32 = 16;
 /// Change of a measurement from which it is listed.
 const LISTED_MM: f64 = 0.05;
@@ -76,7 +75,6 @@ pub fn changed_svg(before: &Style, after: &Style, moves: &[(Handle, f64)]) -> St
     out
 }
 
-/// Lower and upper corner on the sheet, mm.
 fn title_extent(pen: &Pen, piece: &StylePiece, size: &str) -> [V2; 2] {
     let at = pen.title_at(&piece.outline());
     // Letters of 19 mm are 12 mm wide.
@@ -192,7 +190,6 @@ impl Way {
 struct Labels {
     /// Width and height, mm.
     sheet: V2,
-    /// Lower and upper corners.
     taken: Vec<[V2; 2]>,
 }
 

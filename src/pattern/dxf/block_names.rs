@@ -47,13 +47,11 @@ pub fn block_names(pieces: &[Piece]) -> Vec<String> {
     names
 }
 
-/// Name of the block, or of a piece outside all blocks.
 fn own_name(piece: &Piece) -> String {
     let named = [&piece.block, &piece.name].into_iter().find(|name| !name.trim().is_empty() && *name != NO_BLOCK);
     r12_name(named.map_or("PIECE", String::as_str))
 }
 
-/// Removes the size that follows the name of the piece.
 fn without_size<'n>(block: &'n str, name: &str, mut sizes: impl Iterator<Item = &'n str>) -> &'n str {
     let after = block.strip_prefix(name).filter(|_| !name.is_empty());
     let is_size = after.is_some_and(|after| {

@@ -52,7 +52,6 @@ impl<'d> Library<'d> {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
-    /// Insertion point, m.
     pub at: V2,
     pub value: String,
     /// True on the layer of notches, internal lines, cut-outs or drill holes.
@@ -80,15 +79,12 @@ pub struct Drawn {
     missing: Vec<String>,
     /// Unreadable parts of layers 1 and 14, each with the reason.
     pub unreadable: Vec<String>,
-    /// Number of curves by kind.
     pub flattened: BTreeMap<&'static str, usize>,
-    /// Number of entities by layer.
     pub unused: BTreeMap<String, usize>,
     /// Boundary lines that duplicate another boundary line.
     copies: Vec<Line>,
     /// Number of used entities other than texts.
     used: usize,
-    /// Number of points and entities so far.
     parts: usize,
 }
 
@@ -115,7 +111,6 @@ impl Drawn {
         self.is_no_piece() && self.texts.is_empty() && self.unused.is_empty()
     }
 
-    /// True if nothing is drawn on the layers of a piece.
     pub fn is_no_piece(&self) -> bool {
         self.used == 0 && self.unreadable.is_empty()
     }

@@ -7,11 +7,9 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use geom::V2;
 
-/// Greatest distance of a chord from its curve.
 pub const CHORD_ERROR_M: f64 = 0.01e-3;
 /// Greatest turning angle of a chord, radians. The relative error of its length is the squared angle divided by 24.
 const MOST_TURN: f64 = 0.03;
-/// Limit for a span of a spline.
 const MOST_HALVINGS: usize = 10;
 /// DXF writers use 3, and the cost of de Boor's algorithm is quadratic in the degree.
 const MOST_DEGREE: usize = 25;
@@ -91,7 +89,6 @@ pub struct Spline {
 }
 
 impl Spline {
-    /// Fails where knots, weights and control points do not match.
     pub fn new(degree: i32, knots: &[f64], control: &[V2], weights: &[f64]) -> Result<Self, String> {
         let of_degree = usize::try_from(degree).ok().filter(|degree| (1..=MOST_DEGREE).contains(degree));
         let Some(degree) = of_degree else {

@@ -7,7 +7,7 @@ use super::curves::{self, CHORD_ERROR_M, Spline};
 use super::mtext;
 use geom::V2;
 
-/// Flag of a polyline [DXF reference, POLYLINE, VERTEX].
+/// Flags of a polyline and of its vertices [DXF reference, POLYLINE, VERTEX].
 const CLOSED: i32 = 1;
 const MESH: i32 = 16 | 64;
 const FRAME_OF_SPLINE: i32 = 16;
@@ -23,7 +23,6 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// Scales file units to metres.
     pub fn scaled(scale: f64) -> Self {
         Self { x: V2::new(scale, 0.0), y: V2::new(0.0, scale), origin: V2::zeros() }
     }
@@ -99,11 +98,7 @@ pub enum Figure {
         angle_deg: f64,
     },
     /// TEXT or MTEXT, each line of which may be a `key: value`.
-    Text {
-        /// Insertion point.
-        at: V2,
-        lines: Vec<String>,
-    },
+    Text { at: V2, lines: Vec<String> },
     /// Also kinds that [`super::guard`] counts as unsupported.
     Label,
 }
@@ -126,7 +121,6 @@ pub fn figure(entity: &Entity, placement: &Placement) -> Result<Figure, String> 
     }
 }
 
-/// At any distance from the origin.
 fn figure_anywhere(entity: &Entity, placement: &Placement) -> Result<Figure, String> {
     let tolerance = CHORD_ERROR_M / placement.scale();
     match &entity.specific {

@@ -83,7 +83,6 @@ pub struct BlockCount<'a> {
     pub name: &'a [u8],
     /// Line of its `0/BLOCK` tag.
     pub line: usize,
-    /// Supported entities.
     pub counts: Counts,
     pub foreign: Foreign<'a>,
 }
@@ -92,7 +91,6 @@ pub struct BlockCount<'a> {
 pub struct HeaderValue<'a> {
     /// Trimmed. Empty if it is not UTF-8.
     pub value: &'a str,
-    /// From 1.
     pub line: usize,
 }
 
@@ -113,15 +111,14 @@ pub struct Inventory<'a> {
     pub foreign: Foreign<'a>,
     /// Group code 1 of TEXT and MTEXT, and 3 of MTEXT.
     pub texts: Vec<Located<'a>>,
-    /// Line numbers of entities between blocks, which are part of no block.
+    /// Line numbers of entities between blocks. They are part of no block.
     pub strays: Vec<usize>,
     inserted: Vec<Located<'a>>,
     /// Version, blocks and entities for the `dxf` crate, without the undefined group codes.
     pub clean: Vec<Tag<'a>>,
 }
 
-/// Fails where sections or blocks do not nest, a number does not parse, a coordinate is missing, or a group code is
-/// undefined (other than 240-269, which are skipped).
+/// Skips the undefined group codes 240-269.
 pub fn take_inventory<'a>(tags: &[Tag<'a>], file: &str) -> Result<Inventory<'a>, DxfError> {
     let mut walk = Walk { file, section: None, block: None, inventory: Inventory::default() };
     // A record is a tag of group code 0 and the tags up to the next one.
@@ -229,7 +226,6 @@ impl<'a> Walk<'a, '_> {
         }
     }
 
-    /// Handles a record of BLOCKS and ENTITIES.
     fn content(&mut self, record: &[Tag<'a>]) -> Result<(), DxfError> {
         let head = record[0];
         let is_in_blocks = self.section == Some("BLOCKS");

@@ -93,7 +93,6 @@ pub struct PatternFile {
     pub texts: Vec<(String, String)>,
     /// In the order of the file.
     pub pieces: Vec<Piece>,
-    /// Blocks that cannot be used as pieces.
     pub refused: Vec<Refused>,
     pub warnings: Vec<String>,
     /// Warning that the file contradicts the unit in which it is read. It is in `warnings` too.
@@ -237,7 +236,6 @@ pub fn is_sample_size(key: &str) -> bool {
     plain(key) == "samplesize"
 }
 
-/// True for a text of the garment or its sample size.
 fn is_of_garment(key: &str) -> bool {
     is_sample_size(key)
         || ["style", "stylename", "stylenumber", "styleno", "model", "modelname"].contains(&plain(key).as_str())

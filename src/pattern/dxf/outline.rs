@@ -8,7 +8,6 @@ use geom::units::mm;
 
 /// Greatest gap between ends that join.
 pub const JOIN_M: f64 = 0.05e-3;
-/// Distance below which points count as equal.
 const SAME_M: f64 = 1e-6;
 /// A piece has some hundreds.
 const MOST_VERTICES: usize = 20_000;
@@ -28,7 +27,6 @@ const SPIKE_M: f64 = 0.026e-3;
 /// Greatest slope of one side of a spike relative to the other. A short sharp corner has a greater one.
 const SPIKE_SLOPE: f64 = 1e-3;
 
-/// Distance below which two corners touch.
 const TOUCHING_M: f64 = 0.01e-3;
 
 /// Distance by which touching corners are moved inwards.
@@ -38,7 +36,6 @@ const PARTED_M: f64 = 0.02e-3;
 pub struct Line {
     /// At least one.
     pub points: Vec<V2>,
-    /// Drawn as closed.
     pub is_closed: bool,
 }
 
@@ -78,7 +75,6 @@ impl Line {
     }
 }
 
-/// Returns the lines and their duplicates.
 pub fn without_copies(lines: Vec<Line>) -> (Vec<Line>, Vec<Line>) {
     let (mut kept, mut copies): (Vec<Line>, Vec<Line>) = (Vec::new(), Vec::new());
     let mut seen: HashMap<[i64; 2], Vec<usize>> = HashMap::new();
@@ -162,7 +158,7 @@ pub fn chains(lines: &[Line]) -> Vec<Line> {
     chains
 }
 
-/// Joins lines into one polygon, the first vertex not repeated. Fails where there is none, or more than one.
+/// Joins lines into one polygon, the first vertex not repeated.
 pub fn joined(lines: &[Line], what: &str) -> Result<Vec<V2>, String> {
     let mut chains = chains(lines).into_iter();
     let Some(first) = chains.next() else {
@@ -198,7 +194,6 @@ pub fn closed(chain: Line, what: &str) -> Result<Vec<V2>, String> {
     }
 }
 
-/// Refuses an outline that crosses itself.
 pub fn check_simple(outline: &[V2], what: &str) -> Result<(), String> {
     match self_crossing(outline) {
         Some(place) => Err(format!("the {what} crosses itself at {}", text_mm(&place))),

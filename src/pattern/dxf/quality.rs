@@ -10,7 +10,6 @@ use geom::units::mm;
 
 /// Coordinates of files are rounded to 0.1 mm.
 const SAME_M: f64 = 0.2e-3;
-/// Distance below which a curve ends at a vertex, or passes through one.
 const AT_VERTEX_M: f64 = 0.5e-3;
 /// Greatest distance of a curve from the points that it explains, as a share of its length. An arc over a right angle
 /// bulges by a tenth.
@@ -37,7 +36,6 @@ pub fn follow(line: &mut Vec<V2>, curves: &[Line]) -> Option<f64> {
     (farthest_m > SAME_M).then_some(farthest_m)
 }
 
-/// `drawn` is the number of vertices before.
 pub fn remark(block: &str, what: &str, layer: &str, drawn: usize, away_m: f64) -> String {
     format!(
         "block `{block}`: its {what} is sewn along its quality curve (layer {layer}), up to {:.1} mm from the {drawn} points",
@@ -47,7 +45,6 @@ pub fn remark(block: &str, what: &str, layer: &str, drawn: usize, away_m: f64) -
 
 /// Part of a closed line that a curve draws again.
 struct Section {
-    /// Index of the first vertex.
     from: usize,
     steps: usize,
     /// In the direction of the line.
@@ -141,7 +138,6 @@ mod tests {
     use super::*;
     use geom::polyline::{crossing_sides, perimeter};
 
-    /// Rectangle with a cap of `chords` over its upper side, counter-clockwise.
     fn capped(chords: u32) -> Vec<V2> {
         let cap = (0..=chords).map(|k| {
             let angle = std::f64::consts::PI * f64::from(k) / f64::from(chords);

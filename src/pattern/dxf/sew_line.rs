@@ -6,7 +6,6 @@ use geom::polyline::{contains, signed_area};
 
 /// Least share of the outline that a closed line on layer 8 encloses as sew line. Old Valentina files draw it there.
 const SEW_LINE_SHARE: f64 = 0.5;
-/// Distance below which a sew line ends on the outline.
 const ON_OUTLINE_M: f64 = 0.1e-3;
 
 /// Takes layer 14, or in files of old Valentina a closed line on layer 8 that encloses most of the piece.

@@ -7,10 +7,8 @@ pub const MOST_BYTES: usize = 64 << 20;
 /// Each takes some 100 bytes of memory.
 const MOST_TAGS: usize = 5_000_000;
 
-/// A pair of lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tag<'a> {
-    /// Tells the meaning of the value.
     pub code: i32,
     /// Without its line end.
     pub value: &'a [u8],

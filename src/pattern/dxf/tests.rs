@@ -15,7 +15,6 @@ fn shared(folder: &str) -> Option<PathBuf> {
     Some(path)
 }
 
-/// Compares all files of a folder with the table of their contents.
 fn check_folder(folder: &str, allowed_refusals: usize) {
     let Some(path) = shared(folder) else { return };
     let mut rows: BTreeMap<String, Vec<csv::StringRecord>> = BTreeMap::new();
@@ -123,7 +122,6 @@ fn what_is_written_is_read_back() {
     }
 }
 
-/// Replaces one occurrence of a text in a drafted file.
 fn edited(from: &str, to: &str) -> Vec<u8> {
     let text = String::from_utf8(tshirt(TshirtSize::S).dxf()).expect("we write ASCII");
     assert!(text.contains(from), "`{from}` is in the file");

@@ -45,7 +45,6 @@ impl Unit {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnitSource {
-    /// By the user.
     Given,
     /// A `Units:` text, `$INSUNITS` or `$MEASUREMENT`.
     File,
@@ -56,9 +55,7 @@ pub enum UnitSource {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Claim {
     pub unit: Unit,
-    /// Name of the text or header variable.
     pub by: &'static str,
-    /// Of the text or header value, from 1.
     pub line: usize,
 }
 
@@ -114,7 +111,6 @@ pub fn claims(inventory: &Inventory<'_>, file: &str) -> Result<Vec<Claim>, DxfEr
     Ok(claims)
 }
 
-/// Warnings for later claims that contradict the first.
 pub fn contradictions(claims: &[Claim]) -> Vec<String> {
     let Some(first) = claims.first() else { return Vec::new() };
     let warning = |claim: &Claim| {

@@ -79,7 +79,6 @@ fn body(pieces: &[Piece], style: &[(String, String)], standard: Standard) -> Str
 
 pub(crate) const D6673: &str = "ASTM/D13Proposal 1 Version: D 6673-04";
 
-/// Distance below which a grade point counts as on a turn point.
 const ON_POINT_M: f64 = 0.1e-3;
 
 struct Out {
@@ -220,7 +219,6 @@ mod tests {
     use crate::draft::Model;
     use crate::{Style, dxf};
 
-    /// Texts of every block by its name, and the names that are inserted.
     fn blocks_and_inserts(bytes: &[u8]) -> (Vec<(String, Vec<String>)>, Vec<String>) {
         let text = String::from_utf8(bytes.to_vec()).expect("UTF-8");
         let lines: Vec<&str> = text.lines().map(str::trim).collect();

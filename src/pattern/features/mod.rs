@@ -40,7 +40,6 @@ pub struct Features {
     version: u32,
     /// Always `mm`.
     unit: String,
-    /// File that the features were taken from.
     #[serde(default)]
     source: String,
     /// `[key, value]`.
@@ -89,7 +88,7 @@ struct Information {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct EdgeFeature {
-    /// Indices of its ends.
+    /// Indices of its ends in `corners`.
     corners: [usize; 2],
     length_mm: f64,
 }
@@ -103,10 +102,10 @@ struct ReferencePoints {
     curve_points: Vec<Place>,
     #[serde(default)]
     drill_holes: Vec<Place>,
-    /// Points of the outline, each with its grade rule.
+    /// On the outline.
     #[serde(default)]
     grade_points: Vec<(Place, u32)>,
-    /// Points of internal lines, cut-outs and drill holes, each with its grade rule.
+    /// On internal lines, cut-outs and drill holes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     inner_grade_points: Vec<(Place, u32)>,
 }
@@ -260,7 +259,6 @@ impl PieceFeatures {
     }
 }
 
-/// Grade points with their rules, on the outline or inside.
 fn graded_places(piece: &Piece, is_inner: bool) -> Vec<(Place, u32)> {
     let graded = piece.grade_points.iter().filter(|graded| graded.is_inner == is_inner);
     graded.map(|graded| (place(&graded.at), graded.rule)).collect()
@@ -300,7 +298,6 @@ pub fn is_features(json: &[u8]) -> bool {
     serde_json::from_slice::<Head>(unmarked(json)).is_ok_and(|head| head.format == FORMAT)
 }
 
-/// Fails also where an outline is missing, encloses no area or crosses itself.
 pub fn read(bytes: &[u8], file: &str) -> Result<PatternFile, FeaturesError> {
     let fail = |place: &str, found: String, accepted: &str| FeaturesError {
         file: file.to_owned(),

@@ -6,7 +6,6 @@ fn written(pieces: &[Piece]) -> Vec<u8> {
     serde_json::to_vec(&Features::of(pieces, "a.dxf", &[("Style Name".to_owned(), "Tee".to_owned())])).expect("JSON")
 }
 
-/// Compares with the piece rounded to the written decimals.
 fn assert_same(read: &Piece, piece: &Piece) {
     let near = |a: &[V2], b: &[V2]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).norm() < 2e-9);
     assert!(near(&read.outline, &piece.outline), "{}", piece.name);

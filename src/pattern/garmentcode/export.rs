@@ -18,14 +18,11 @@ use geom::polyline::Polyline;
 const TOLERANCE_M: f64 = 0.05e-3;
 /// Length below which a part is written straight.
 const SHORTEST_M: f64 = 0.5e-3;
-/// Points of a part that are compared with its cubic.
 const SAMPLES: usize = 33;
-/// Space between panels.
 const GAP_M: f64 = 0.05;
 /// The unit written is centimetres.
 const UNITS_IN_METER: f64 = 100.0;
 
-/// Part of an edge between two arc lengths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Part {
     edge: EdgeRef,
@@ -87,7 +84,6 @@ fn all_edges(style: &Style) -> impl Iterator<Item = EdgeRef> + '_ {
     style.pieces.iter().enumerate().flat_map(edges_of)
 }
 
-/// Parts that are sewn together, in order along the seam.
 fn seam_parts(style: &Style, seam: &Seam) -> Vec<[Part; 2]> {
     let (a, b) = (Side::new(style, &seam.a, true), Side::new(style, &seam.b, seam.b_forwards));
     let mut shares: Vec<f64> = a.shares.iter().chain(&b.shares).copied().collect();
@@ -179,17 +175,14 @@ fn fitted(style: &Style, together: &[Part], is_opposed: bool) -> Vec<Vec<Part>> 
     [half(0), half(1)].iter().flat_map(|half| fitted(style, half, is_opposed)).collect()
 }
 
-/// Evenly spaced.
 fn samples(style: &Style, part: Part) -> Vec<V2> {
     let line: &Polyline = &style.edge(part.edge).line;
     let share = |k: usize| k as f64 / (SAMPLES - 1) as f64;
     (0..SAMPLES).map(|k| line.at(part.arcs[0] + (part.arcs[1] - part.arcs[0]) * share(k))).collect()
 }
 
-/// Cubic Bezier curve.
 struct CubicFit {
     inner: [V2; 2],
-    /// Greatest distance from the line.
     error_m: f64,
 }
 

@@ -21,7 +21,6 @@ pub struct Pattern {
     pub panels: BTreeMap<String, Panel>,
     /// Two sides each, and the flag `right_wrong` if both run in the same direction.
     pub stitches: Vec<Vec<StitchItem>>,
-    /// Order of drawing.
     #[serde(default)]
     pub panel_order: Vec<String>,
 }
@@ -74,11 +73,7 @@ pub enum Curve {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum StitchItem {
-    Side {
-        panel: String,
-        edge: usize,
-    },
-    /// Such as `right_wrong`.
+    Side { panel: String, edge: usize },
     Flag(String),
 }
 
@@ -90,7 +85,6 @@ pub struct Properties {
     /// Ignored.
     #[serde(default)]
     pub normalize_panel_translation: bool,
-    /// True for edges in loop order.
     #[serde(default)]
     pub normalized_edge_loops: bool,
 }

@@ -39,7 +39,6 @@ const RIGHT_WRONG: &str = "right_wrong";
 #[error("{file}: {place}: found {found}; accepted: {accepted}")]
 pub struct GarmentCodeError {
     pub file: String,
-    /// Panel, edge or stitch.
     pub place: String,
     pub found: String,
     pub accepted: String,
@@ -52,25 +51,20 @@ pub struct Specification {
     /// Panels seen from outside, in the order of their names. [`Piece::is_clockwise_in_file`] is true for mirrored
     /// ones.
     pub pieces: Vec<Piece>,
-    /// Round the body, one for each piece.
     pub places: Vec<Place>,
     /// Edges of each piece, in the order of the file.
     pub edges: Vec<Vec<Polyline>>,
-    /// In the order of the file.
     pub stitches: Vec<Stitch>,
 }
 
 /// A dart if both edges belong to one panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stitch {
-    /// In the order of the file.
     pub sides: [EdgeRef; 2],
     /// True if start meets start (`right_wrong`). Otherwise start meets end.
     pub same_direction: bool,
 }
 
-/// Fails also where an edge or stitch refers to something missing, a loop is open, an outline crosses itself, or an
-/// edge is sewn twice.
 pub fn read(bytes: &[u8], file: &str) -> Result<Specification, GarmentCodeError> {
     let reader = Reader { file };
     let document: Document = serde_json::from_slice(unmarked(bytes)).map_err(|error| {

@@ -81,7 +81,6 @@ fn specifications_become_styles_that_mesh() {
     }
 }
 
-/// Style written and read again.
 fn there_and_back(style: &Style) -> Specification {
     let bytes = serde_json::to_vec(&document(style)).expect("it is JSON");
     read(&bytes, "back_specification.json").unwrap_or_else(|error| panic!("{}: {error}", style.name))

@@ -22,7 +22,6 @@ const UPPER: f64 = 0.25;
 /// Greatest bounding box of a collar over that of the panel that it stands on.
 const SMALLER: f64 = 0.6;
 
-/// Part of the body, by the label of a panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// `body`.
@@ -33,7 +32,6 @@ pub enum Part {
 }
 
 impl Part {
-    /// `None` for any label but those of parts.
     pub fn of_label(label: &str) -> Option<Self> {
         match label {
             "body" => Some(Self::Trunk),
@@ -44,7 +42,6 @@ impl Part {
     }
 }
 
-/// As the file gives it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
     /// Of the bounding box: to the wearer's left, up, to the front, m.
@@ -190,7 +187,6 @@ impl<'a> Worn<'a> {
         place.is_turned() || !takes_a_limb && partners.any(stands_on)
     }
 
-    /// True for a skirt, whatever its name.
     fn hangs_from_a_waistband(&self, panel: usize) -> bool {
         let Named { face, hand, .. } = self.named[panel];
         let high = UPPER * self.places[panel].size.y;

@@ -6,7 +6,6 @@ use crate::style::corners::corner_vertices;
 use geom::V2;
 use geom::polyline::Polyline;
 
-/// Distance below which two cardinal points are one.
 const SAME_M: f64 = 0.1e-3;
 /// Turning angle from which a vertex inside is a cardinal point, as that of a corner of an outline.
 const BEND_RAD: f64 = 30.0 * std::f64::consts::PI / 180.0;
@@ -18,7 +17,6 @@ const FROM_CORNER_M: f64 = 40e-3;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Outline,
-    /// Inside the outline.
     SewLine,
     /// Keeps its place on the outline.
     Notch,
@@ -53,12 +51,10 @@ pub(super) struct Side {
     pub inner: std::ops::Range<usize>,
 }
 
-/// Closed lines, on which seams and cuts run.
 fn lines(piece: &Piece) -> impl Iterator<Item = (Kind, &Vec<V2>)> {
     [(Kind::Outline, &piece.outline)].into_iter().chain(piece.sew_line.as_ref().map(|line| (Kind::SewLine, line)))
 }
 
-/// Vertices in order along the line.
 fn corners(piece: &Piece, line: &[V2]) -> Vec<usize> {
     let alone = Piece {
         outline: line.to_vec(),

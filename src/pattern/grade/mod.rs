@@ -20,15 +20,13 @@ use geom::V2;
 use geom::polyline::{segment_distance, self_crossing, signed_area};
 use geom::units::mm;
 
-/// Distance below which a grade point counts as on the outline.
 const ON_OUTLINE_M: f64 = 1e-3;
 /// Least difference of two distances, or steps, that counts: half of the rounding of files.
 const NEARER_M: f64 = 0.05e-3;
 /// Greatest slope of a grade reference line that counts as horizontal.
 const HORIZONTAL: f64 = 0.02;
 
-/// The sample size stays as drawn. A piece that cannot be graded is listed in [`PatternFile::refused`]. Fails where the
-/// file holds another size than the sample size, or no grade point.
+/// The sample size stays as drawn. A piece that cannot be graded is listed in [`PatternFile::refused`].
 pub fn grade(file: &PatternFile, table: &GradeTable) -> Result<PatternFile, GradeError> {
     let fail = |found: String, accepted: &str| {
         Err(GradeError { file: file.file.clone(), line: None, found, accepted: accepted.to_owned() })
@@ -126,7 +124,6 @@ struct Field<'a> {
 }
 
 impl<'a> Field<'a> {
-    /// Fails where a rule is missing, two rules meet in one point, or fewer than two points are graded.
     fn of(piece: &'a Piece, table: &GradeTable, size: usize) -> Result<Self, String> {
         let outline = &piece.outline;
         let mut graded: Vec<Option<(u32, V2)>> = vec![None; outline.len()];
@@ -171,7 +168,6 @@ impl<'a> Field<'a> {
         self.own(point).unwrap_or_else(|| self.at(point))
     }
 
-    /// By its own grade rule.
     fn own(&self, point: &V2) -> Option<V2> {
         let near = self.own.iter().filter(|own| (own.at - point).norm() < ON_OUTLINE_M);
         near.min_by(|a, b| (a.at - point).norm().total_cmp(&(b.at - point).norm())).map(|own| own.step)
@@ -205,7 +201,6 @@ impl<'a> Field<'a> {
     }
 }
 
-/// Points of lines, cut-outs and holes.
 fn inner_points(piece: &Piece) -> impl Iterator<Item = &V2> {
     piece.internal_lines.iter().chain(&piece.cut_outs).flatten().chain(&piece.drill_holes)
 }

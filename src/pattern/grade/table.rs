@@ -26,7 +26,6 @@ use geom::units::{from_mm, mm};
 const MOST_BYTES: usize = 8 << 20;
 /// Greatest displacement by a rule.
 const GREATEST_M: f64 = 2.0;
-/// Greatest displacement of the sample size that counts as zero.
 const ZERO_M: f64 = 1e-6;
 
 /// Pairs of x and y.
@@ -44,16 +43,14 @@ pub struct GradeError {
 #[derive(Clone, Debug, PartialEq)]
 pub struct GradeTable {
     pub file: String,
-    /// In the order of the table.
     pub sizes: Vec<String>,
-    /// Index of the sample size.
     pub sample: usize,
     pub unit: Unit,
     /// Displacements relative to the sample size, m, one for each size.
     pub rules: BTreeMap<u32, Vec<V2>>,
 }
 
-/// Fails also where the sizes do not agree, or a rule occurs twice, lacks a pair for a size, or moves the sample size.
+/// Fails also where a rule occurs twice, lacks a pair for a size, or moves the sample size.
 pub fn read(bytes: &[u8], file: &str) -> Result<GradeTable, GradeError> {
     let reader = Reader { file };
     if bytes.len() > MOST_BYTES {
@@ -99,7 +96,6 @@ pub fn read(bytes: &[u8], file: &str) -> Result<GradeTable, GradeError> {
     reader.table(head, rules)
 }
 
-/// As `(key, value)`.
 pub fn named_in_pattern(name: &str) -> (String, String) {
     ("Grade Rule Table".to_owned(), name.to_owned())
 }
@@ -134,7 +130,6 @@ impl Imprint {
         Self { texts }
     }
 
-    /// `(key, value)`.
     pub fn texts(&self) -> impl Iterator<Item = (String, String)> + '_ {
         self.texts.iter().cloned()
     }
@@ -177,7 +172,6 @@ enum Open {
     Nothing,
 }
 
-/// Entries before the rules, with their line numbers.
 #[derive(Clone, Debug, Default)]
 struct Head {
     unit: Option<(usize, String)>,
@@ -277,7 +271,6 @@ impl Reader<'_> {
         Ok(GradeTable { file: self.file.to_owned(), sizes, sample, unit, rules })
     }
 
-    /// In m.
     fn steps(&self, number: u32, rule: &Rule, scale: f64, sizes: usize, sample: usize) -> Result<Vec<V2>, GradeError> {
         if rule.numbers.len() != 2 * sizes {
             let found = format!("{} numbers in rule {number}", rule.numbers.len());

@@ -236,7 +236,6 @@ proptest::proptest! {
     }
 }
 
-/// Nest that the sample size and its table make, from the written files.
 fn regraded(nest: &PatternFile, sample: &str, standard: dxf::Standard) -> PatternFile {
     let Ungraded { pieces, table, .. } = ungrade(nest, sample).expect("one pattern");
     let written = dxf::write_pieces(&pieces, &[("Sample Size".to_owned(), sample.to_owned())], standard);
@@ -254,7 +253,6 @@ fn regraded(nest: &PatternFile, sample: &str, standard: dxf::Standard) -> Patter
     graded
 }
 
-/// Greatest distance of the vertices from the line, m.
 fn away(vertices: &[V2], line: &[V2]) -> f64 {
     let sides = || (0..line.len()).map(|k| (line[k], line[(k + 1) % line.len()]));
     let nearest = |p: &V2| sides().map(|(a, b)| segment_distance(&a, &b, p)).fold(f64::INFINITY, f64::min);

@@ -19,17 +19,14 @@ const SAME_PLACE_M: f64 = 0.2e-3;
 /// Difference below which displacements share one rule: the last digit of a written table.
 const SAME_STEP_M: f64 = 1e-7;
 
-/// Nest as its sample size and grade rules.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ungraded {
-    /// Sample size with grade points.
     pub pieces: Vec<Piece>,
     pub table: GradeTable,
     /// Features that get no rules because some size lacks them. They move with the outline.
     pub notes: Vec<String>,
 }
 
-/// Fails where a piece is missing or different in one size.
 pub fn ungrade(file: &PatternFile, sample: &str) -> Result<Ungraded, GradeError> {
     let fail = |found: String, accepted: &str| GradeError {
         file: file.file.clone(),
@@ -67,7 +64,6 @@ pub fn ungrade(file: &PatternFile, sample: &str) -> Result<Ungraded, GradeError>
     Ok(Ungraded { pieces, table, notes })
 }
 
-/// In the order of their numbers.
 struct Rules {
     sizes: usize,
     steps: Vec<Vec<V2>>,

@@ -28,7 +28,6 @@ const LEAST_BELOW_BICEP_M: f64 = 60e-3;
 pub enum Limb {
     /// Top, or bodice of a dress.
     Trunk,
-    /// Alone or of a dress.
     Skirt,
     /// Outseam.
     Outer(Hand),
@@ -36,7 +35,7 @@ pub enum Limb {
     Inner(Hand),
 }
 
-/// Where a girth handle acts on a side seam.
+/// Place on a side seam at which a girth handle acts.
 #[derive(Clone, Copy, Debug)]
 pub struct Level {
     /// Arc length from the upper end.
@@ -56,7 +55,6 @@ pub struct Side {
 
 /// Front or back part.
 pub struct Armhole {
-    /// Between shoulder point and underarm.
     pub edges: Vec<EdgeRef>,
     /// Shoulder point. `None` if the garment has no shoulder seam there.
     pub tip: Option<EdgeEnd>,
@@ -90,7 +88,6 @@ pub struct Body<'a> {
     pub trunk: Option<Trunk<'a>>,
     /// Right one first. Empty without trousers.
     pub legs: Vec<Legs<'a>>,
-    /// Both sides of all side seams, outseams and inseams.
     pub sides: Vec<Side>,
     /// Front and back of one, then of the other.
     pub armholes: Vec<Armhole>,
@@ -242,7 +239,6 @@ fn armholes(anatomy: &Anatomy<'_>, trunk: &Trunk<'_>) -> Vec<Armhole> {
     found
 }
 
-/// `None` without a sleeve, or if the half cap is not one piece.
 fn half_cap(anatomy: &Anatomy<'_>, armhole: &[EdgeRef], tip: EdgeEnd, underarm: EdgeEnd) -> Option<HalfCap> {
     let style = anatomy.style();
     // The partner is looked up a little inside the armhole: beyond its ends, another piece may be sewn on.
@@ -349,7 +345,6 @@ impl HalfCap {
         }
     }
 
-    /// Unit vector down the underarm seam.
     pub fn along(&self, anatomy: &Anatomy<'_>) -> V2 {
         along(anatomy, &self.seam)
     }

@@ -13,8 +13,7 @@ use geom::V2;
 /// Distance along a band below which two of its corners are one end.
 const END_M: f64 = 20e-3;
 
-/// Drives the tips of darts by the mean displacement of their mouths, and lets them give way so that both edges stay
-/// equally long.
+/// Drives tips by the mean displacement of their mouths, and lets them give way so that both edges stay equally long.
 pub fn darts(body: &Body<'_>, plan: &mut Plan) {
     let anatomy = body.anatomy;
     let touched = touched(plan);
@@ -67,8 +66,8 @@ pub fn bands(body: &Body<'_>, plan: &mut Plan) {
     plan.gives.extend(bands.into_iter().flat_map(|(piece, edge)| stretches(body, piece, edge)));
 }
 
-/// Ways in which a piece can stretch along the chord of one of its edges: one for each interval between successive
-/// corners, with the middle of the piece at rest.
+/// Ways to stretch along the chord of an edge: one for each interval between successive corners, with the middle of the
+/// piece at rest.
 fn stretches(body: &Body<'_>, piece: usize, edge: EdgeRef) -> Vec<Vec<Move>> {
     let anatomy = body.anatomy;
     let chord = anatomy.place(EdgeEnd::new(edge, true)) - anatomy.place(EdgeEnd::new(edge, false));
@@ -97,7 +96,7 @@ fn stretches(body: &Body<'_>, piece: usize, edge: EdgeRef) -> Vec<Vec<Move>> {
     levels.windows(2).map(stretch).collect()
 }
 
-/// Position of `m` in an interval, clamped to 0..=1.
+/// Clamped to 0..=1.
 fn share_of(ends: &[f64], m: f64) -> f64 {
     ((m - ends[0]) / (ends[1] - ends[0])).clamp(0.0, 1.0)
 }

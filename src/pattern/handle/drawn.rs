@@ -19,24 +19,23 @@ use geom::polyline::segment_distance;
 use geom::units::mm;
 use toml_edit::{Array, DocumentMut, Value, value};
 
-/// Greatest deviation of a displaced segment from the displaced positions of its inner points, m: a hundredth of the
+/// Greatest deviation of a displaced segment from the displaced positions of its inner points: a hundredth of the
 /// tolerance of a seam.
 const CARRIED_M: f64 = 5e-6;
-/// In m. Shorter segments are not divided further.
+/// Length below which a segment is not divided further.
 const SHORT_M: f64 = 1e-3;
-/// Greatest difference between the changes of a block that is worn twice, m.
+/// Greatest difference between the changes of a block that is worn twice.
 const ALIKE_M: f64 = 0.05e-3;
 
-/// Handles applied to pieces as drawn: where every point of each piece goes.
+/// Handles applied to pieces as drawn.
 pub struct Redrawn<'a> {
     pieces: &'a [Piece],
     entries: SeamFile,
-    /// By index of the piece.
     carriers: BTreeMap<usize, Carrier>,
 }
 
 impl<'a> Redrawn<'a> {
-    /// Applies handles with their amounts, m, to pieces as drawn. `file` is the name of the seam file for messages.
+    /// Amounts are in m. Fails also where a block that is worn twice would change in two ways.
     pub fn of(
         pieces: &'a [Piece],
         seam_bytes: &[u8],
@@ -69,14 +68,13 @@ impl<'a> Redrawn<'a> {
         Ok(Self { pieces, entries, carriers })
     }
 
-    /// Place of a point of a piece after the change. `piece` is the index of the piece. Half of a piece that is folded
-    /// changes as its other half does, so that it still lies at the fold.
+    /// Half of a piece that is folded changes as its other half does, so that it still lies at the fold.
     pub fn carried(&self, piece: usize, p: V2) -> V2 {
         self.carriers.get(&piece).map_or(p, |by| by.carried(p))
     }
 
-    /// Changed pieces, in the order of the file. Their outlines have as many vertices as follow the change within a
-    /// hundredth of a millimetre.
+    /// Outlines get as many vertices as follow the change within a hundredth of a millimetre. The order is that of the
+    /// file.
     pub fn pieces(&self) -> Vec<Piece> {
         let piece = |(number, piece): (usize, &Piece)| {
             self.carriers.get(&number).map_or_else(|| piece.clone(), |by| by.piece(piece))
@@ -84,9 +82,8 @@ impl<'a> Redrawn<'a> {
         self.pieces.iter().enumerate().map(piece).collect()
     }
 
-    /// Bytes of a seam file that makes the changed style of changed pieces, given in the order of the pieces before.
-    /// Only `corners_at`, the positions of corners on their pieces, change. Corners that are found on another size of a
-    /// nest stay.
+    /// Seam file for changed pieces, given in the order of the pieces before. Only `corners_at`, the positions of
+    /// corners on their pieces, change. Corners that are found on another size of a nest stay.
     pub fn seams(&self, changed: &[Piece], seam_bytes: &[u8], file: &str) -> Result<Vec<u8>, HandleError> {
         let (entries, mut corners) = (&self.entries, BTreeMap::new());
         let made_on = entries.size.as_deref();
@@ -111,8 +108,8 @@ impl<'a> Redrawn<'a> {
     }
 }
 
-/// Greatest distance between the edges of two styles with the same edges, m, each piece laid on the other by its corners.
-/// Infinite if they have not the same edges.
+/// Greatest distance between the edges, each piece laid on the other by its corners. Infinite if the styles have not
+/// the same edges.
 pub fn outlines_apart_m(style: &Style, other: &Style) -> f64 {
     let has_same = |(piece, other): (&StylePiece, &StylePiece)| piece.edges.len() == other.edges.len();
     if style.pieces.len() != other.pieces.len() || !style.pieces.iter().zip(&other.pieces).all(has_same) {
@@ -138,6 +135,7 @@ pub fn outlines_apart_m(style: &Style, other: &Style) -> f64 {
     style.pieces.iter().zip(&other.pieces).map(apart).fold(0.0, f64::max)
 }
 
+/// Changes `corners_at` of some pieces. The rest of the text stays.
 pub(crate) fn with_corners(
     seam_bytes: &[u8],
     file: &str,
@@ -156,10 +154,10 @@ pub(crate) fn with_corners(
     Ok(document.to_string().into_bytes())
 }
 
-/// Transform of a piece from drawn to worn: mirrored by the seam file, shrunk, then turned upright.
+/// Transform from drawn to worn: mirrored by the seam file, shrunk, then turned upright.
 struct Pose {
     is_mirrored: bool,
-    /// Shrinkage of the cloth, and the grain before the turn.
+    /// Of the cloth, and the grain before the turn.
     shrinkage: Shrinkage,
     grain: V2,
     /// Cosine and sine.
@@ -188,6 +186,7 @@ impl Pose {
     }
 }
 
+/// Displaces a drawn piece by the fields of all handles in turn.
 struct Carrier {
     pose: Pose,
     fields: Vec<Field>,
@@ -207,7 +206,7 @@ impl Carrier {
         }
     }
 
-    /// Displaces a line, dividing its segments where the field bends them.
+    /// Divides segments where the field bends them.
     fn line(&self, points: &[V2], is_closed: bool) -> Vec<V2> {
         let Some(&first) = points.first() else { return Vec::new() };
         let mut carried = vec![self.carried(first)];
@@ -221,7 +220,6 @@ impl Carrier {
         carried
     }
 
-    /// Appends the displaced points of a segment after its start.
     fn segment(&self, [from, to]: [V2; 2], carried: &mut Vec<V2>) {
         let middle = from.lerp(&to, 0.5);
         let bend = self.carried(middle) - self.carried(from).lerp(&self.carried(to), 0.5);

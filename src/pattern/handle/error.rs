@@ -25,23 +25,12 @@ pub enum HandleError {
         "handle `{handle}` by {amount_mm:.1} mm: the outline of piece `{piece}` crosses itself at ({u_mm:.0}, {v_mm:.0}) mm; accepted: an \
          amount that leaves it free of crossings", handle = .handle.as_str()
     )]
-    Crossing {
-        handle: Handle,
-        amount_mm: f64,
-        piece: String,
-        /// Coordinates of the crossing in the plane of the piece.
-        u_mm: f64,
-        v_mm: f64,
-    },
+    Crossing { handle: Handle, amount_mm: f64, piece: String, u_mm: f64, v_mm: f64 },
     /// A block serves for several pieces of the style, which would change it differently.
     #[error(
         "block `{block}` is worn in several ways, which change it differently by {apart_mm:.2} mm; accepted: a block each"
     )]
-    Drawn {
-        block: String,
-        /// Greatest distance between the two displaced outlines, mm.
-        apart_mm: f64,
-    },
+    Drawn { block: String, apart_mm: f64 },
     #[error(transparent)]
     Style(#[from] StyleError),
 }

@@ -4,7 +4,6 @@
 use geom::V2;
 use geom::polyline::segment_distance;
 
-/// In m.
 const ON_OUTLINE_M: f64 = 1e-6;
 
 pub struct Field {
@@ -13,6 +12,7 @@ pub struct Field {
 }
 
 impl Field {
+    /// Takes the vertices of an outline to `moved`.
     pub fn new(outline: Vec<V2>, moved: &[V2]) -> Self {
         let by = outline.iter().zip(moved).map(|(from, to)| to - from).collect();
         Self { outline, by }
@@ -22,9 +22,8 @@ impl Field {
         place + self.by_at(place)
     }
 
-    /// Displacement at a point: on the outline, linear along its segment. Elsewhere the mean over all vertices with
-    /// weights (tan(a/2) + tan(b/2)) / r, for the angles a and b that the adjacent segments subtend, and the distance
-    /// r.
+    /// Linear along the segments of the outline. Elsewhere the mean over all vertices with weights (tan(a/2) +
+    /// tan(b/2)) / r, for the angles a and b that the adjacent segments subtend, and the distance r.
     pub fn by_at(&self, place: V2) -> V2 {
         let n = self.outline.len();
         let next = |k: usize| (k + 1) % n;

@@ -7,13 +7,10 @@ use super::{rig, upper};
 use crate::style::EdgePoint;
 use geom::smooth_step;
 
-/// In m.
 const AT_LEVEL_M: f64 = 1e-6;
 
-/// Plan of a girth handle. `None` if no side has its level.
-///
-/// All sides with the level are driven by the same distance, so that half of the girth changes by the amount. Every
-/// edge of a side keeps its length, because its lower end gives way.
+/// Plan of a girth handle. `None` if no side has its level. All sides with the level are driven by the same distance,
+/// so that half of the girth changes by the amount. Every edge keeps its length, because its lower end gives way.
 pub fn plan(body: &Body<'_>, handle: Handle) -> Option<Plan> {
     let is_moved = |side: &&Side| moves(side, handle);
     if !body.sides.iter().any(|side| moves(side, handle)) {
@@ -44,7 +41,6 @@ fn moves(side: &Side, handle: Handle) -> bool {
     is_meant && side.levels.iter().any(|level| level.handle == handle)
 }
 
-/// True if two sides belong to the same girth at a level.
 fn shares_girth(limb: Limb, other: Limb, handle: Handle) -> bool {
     match (limb, other) {
         (Limb::Outer(a) | Limb::Inner(a), Limb::Outer(b) | Limb::Inner(b)) => {
@@ -54,8 +50,7 @@ fn shares_girth(limb: Limb, other: Limb, handle: Handle) -> bool {
     }
 }
 
-/// Drives a side outwards at the level of a handle, holds its other levels, and interpolates between by
-/// [`smooth_step`].
+/// Drives a side outwards, holds its other levels, and interpolates between by [`smooth_step`].
 pub fn drive(body: &Body<'_>, plan: &mut Plan, side: &Side, handle: Handle, by: f64) {
     let value = |level: Handle| if level == handle { by } else { 0.0 };
     let mut levels = Vec::new();
@@ -84,7 +79,7 @@ pub fn drive(body: &Body<'_>, plan: &mut Plan, side: &Side, handle: Handle, by: 
     }
 }
 
-/// Near an end it is the corner there.
+/// Point at an arc length from the upper end. Near an end it is the corner there.
 fn place(body: &Body<'_>, side: &Side, at_m: f64) -> Option<EdgePoint> {
     let length_m: f64 = side.chain.iter().map(|step| body.anatomy.length_m(&[step.edge])).sum();
     if at_m <= 0.0 {
@@ -96,7 +91,7 @@ fn place(body: &Body<'_>, side: &Side, at_m: f64) -> Option<EdgePoint> {
     }
 }
 
-/// Keeps the length of every edge of a side: the lower end of the edge gives way along the edge.
+/// Keeps the length of every edge: its lower end gives way along it.
 pub fn keep(body: &Body<'_>, plan: &mut Plan, side: &Side) {
     plan.conditions.extend(side.chain.iter().map(|edge| Condition::chain(&vec![*edge], 0.0)));
     plan.yield_ends(body.anatomy, &side.chain);

@@ -2,7 +2,7 @@
 
 use crate::pom::Point;
 
-/// A handle. Its amount is the change of the length that the variant names, m.
+/// The amount is the change of the length that the variant names, m.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Handle {
     /// Half of the girth at the chest.
@@ -53,7 +53,6 @@ pub enum Handle {
     /// Length of the back bodice at its centre.
     SwayBack,
     FrontNeckDepth,
-    /// Depth of the neck behind.
     BackNeckDepth,
     NeckWidth,
     ArmholeDepth,
@@ -63,7 +62,6 @@ pub enum Handle {
     Cuff,
     CapHeight,
     SleeveLength,
-    /// Length of front and back.
     BodyLength,
     /// Length of the front at its centre.
     FrontLength,
@@ -74,7 +72,6 @@ pub enum Handle {
 
 struct Entry {
     name: &'static str,
-    /// Greatest usual amount in either direction.
     most_mm: f64,
     is_half_girth: bool,
     /// Effect of a positive amount.
@@ -82,7 +79,6 @@ struct Entry {
 }
 
 impl Handle {
-    /// In the order in which they are listed.
     pub const ALL: [Self; 36] = [
         Self::Chest,
         Self::Waist,
@@ -223,18 +219,18 @@ impl Handle {
         self.entry().definition
     }
 
-    /// Greatest amount in either direction that is cut without drawing the pattern anew, mm: of a girth 20 mm at a seam
-    /// [Liechty10, Armstrong10]; of what is no seam of the trunk, that of a neighbouring size.
+    /// Greatest amount either way that is cut without drawing the pattern anew: of a girth 20 mm at a seam [Liechty10,
+    /// Armstrong10]; of what is no seam of the trunk, that of a neighbouring size.
     pub const fn most_mm(self) -> f64 {
         self.entry().most_mm
     }
 
-    /// True if the amount is the change of half a girth, so that the girth changes by twice the amount.
+    /// The girth changes by twice the amount.
     pub const fn is_half_girth(self) -> bool {
         self.entry().is_half_girth
     }
 
-    /// True if the handle is for a figure, which no girth tells: it is no remedy for a girth by itself.
+    /// True if no girth tells it: it is no remedy for a girth by itself.
     pub const fn is_for_figure(self) -> bool {
         use Handle::*;
         matches!(
@@ -260,7 +256,7 @@ impl Handle {
         Self::ALL.into_iter().find(|handle| handle.as_str() == name)
     }
 
-    /// Point of measure that changes by exactly the amount. `None` if none does.
+    /// Point of measure that changes by exactly the amount.
     pub const fn changes(self) -> Option<Point> {
         Some(match self {
             Self::Chest => Point::HalfChest,

@@ -10,21 +10,21 @@ use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, PathPart};
 use geom::V2;
 
-/// Slash of a piece: corners above it stay, corners below it all move by the same.
+/// Corners above stay, corners below all move by the same.
 struct Slash {
     down: V2,
-    /// Beginning and end of the spread along `down`, m.
+    /// Ends of the spread along `down`.
     from_m: f64,
     to_m: f64,
 }
 
-/// Lengthens the trunk below the armhole, front and back alike.
+/// Below the armhole, front and back alike.
 pub fn body_length(body: &Body<'_>) -> Option<Plan> {
     body.trunk.as_ref()?;
     slashed(body, |side| side.limb == Limb::Trunk, BELOW_ARMHOLE_M)
 }
 
-/// Lengthens a skirt below its waist, or below its hip if it has that level.
+/// Below the waist, or the hip if it has that level.
 pub fn skirt_length(body: &Body<'_>) -> Option<Plan> {
     let hip = |side: &Side| {
         side.levels.iter().find(|level| level.handle == super::Handle::Hip).map_or(0.0, |level| level.at_m)
@@ -33,7 +33,7 @@ pub fn skirt_length(body: &Body<'_>) -> Option<Plan> {
     slashed(body, |side| side.limb == Limb::Skirt, from_m)
 }
 
-/// Lengthens the legs between fork and lower edge, so that the inseam changes by the amount.
+/// Between fork and lower edge, so that the inseam changes by the amount.
 pub fn leg_length(body: &Body<'_>) -> Option<Plan> {
     let mut plan = slashed(body, |side| matches!(side.limb, Limb::Inner(_)), 0.0)?;
     for side in &body.sides {
@@ -46,7 +46,7 @@ pub fn leg_length(body: &Body<'_>) -> Option<Plan> {
     Some(plan)
 }
 
-/// Slashes the pieces of some sides `below_m` under the upper ends of these sides.
+/// Slashes `below_m` under the upper ends of some sides.
 fn slashed(body: &Body<'_>, is_meant: impl Fn(&Side) -> bool, below_m: f64) -> Option<Plan> {
     let anatomy = body.anatomy;
     let mut plan = Plan::default();
@@ -81,7 +81,7 @@ fn slashed(body: &Body<'_>, is_meant: impl Fn(&Side) -> bool, below_m: f64) -> O
     Some(plan)
 }
 
-/// Drives the corners of a piece: above a slash by zero, below it by the amount, in it linearly between.
+/// Drives corners above a slash by zero, below it by the amount, in it linearly between.
 fn spread(anatomy: &Anatomy<'_>, plan: &mut Plan, piece: usize, slash: &Slash) {
     for corner in corners(anatomy, piece) {
         let at_m = anatomy.place(corner).dot(&slash.down);
@@ -90,7 +90,7 @@ fn spread(anatomy: &Anatomy<'_>, plan: &mut Plan, piece: usize, slash: &Slash) {
     }
 }
 
-/// Lengthens the sleeves between underarm and lower edge.
+/// Between underarm and lower edge.
 pub fn sleeve_length(body: &Body<'_>) -> Option<Plan> {
     let anatomy = body.anatomy;
     let mut plan = Plan::default();
@@ -110,8 +110,8 @@ pub fn sleeve_length(body: &Body<'_>) -> Option<Plan> {
     Some(plan)
 }
 
-/// Lowers the lower edge of the front or back from its centre to below the high point of the shoulder. From there the
-/// displacement falls to zero at the side seams.
+/// Lowers the lower edge from its centre to below the high point of the shoulder. From there the displacement falls to
+/// zero at the side seams.
 pub fn face_length(body: &Body<'_>, face: Face) -> Option<Plan> {
     let (trunk, anatomy) = (body.trunk.as_ref()?, body.anatomy);
     let openings = anatomy.style().openings(&|_| true);

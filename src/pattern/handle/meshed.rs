@@ -5,8 +5,8 @@ use crate::garment::Garment;
 use crate::style::Style;
 
 impl Style {
-    /// Mesh of the style changed by a handle with an amount, m. It has the same vertices, triangles and seams on the
-    /// changed outlines. Amounts should be small, because triangles are stretched and not made anew.
+    /// Changes a mesh by a handle, m. Vertices, triangles and seams stay the same. Amounts should be small, because
+    /// triangles are stretched and not made anew.
     pub fn moved_mesh(&self, garment: &Garment, handle: Handle, amount_m: f64) -> Result<Garment, HandleError> {
         let fields = self.moved_by(handle, amount_m)?.fields;
         let mut rest = garment.rest.clone();

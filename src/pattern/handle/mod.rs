@@ -45,37 +45,35 @@ use crate::propose::Face;
 use crate::style::Style;
 use geom::units::mm;
 
-/// Greatest amount of a handle in either direction, m. A larger change would make another garment.
+/// Limit either way. A larger change would make another garment.
 const MOST_M: f64 = 0.3;
-/// Greatest change of the length difference of the sides of a seam, and residual of a condition on lengths, m.
+/// Greatest change of the length difference of the sides of a seam, and residual of a condition on lengths.
 const PAIRED_M: f64 = 0.1e-3;
 
-/// Tolerance on the change of the point of measure of `Handle::aim`, m, and greatest number of iterations.
+/// Tolerance on the change of the point of measure of `Handle::aim`, and greatest number of iterations.
 const AIMED_M: f64 = 1e-6;
 const MOST_AIMS: usize = 8;
-/// Range of `amount / change` of that point of measure within which the displacement is rescaled. Beyond it, the point
-/// of measure has jumped to another place.
+/// Range of `amount / change` within which the displacement is rescaled. Beyond it, the point of measure has jumped to
+/// another place.
 const AIM_RATIOS: Range<f64> = 0.5..2.0;
 
-/// Greatest number of halvings of an amount at which the sides of a seam do not stay equally long.
+/// Limit for an amount at which the sides of a seam do not stay equally long.
 const HALVINGS: u32 = 2;
 
-/// By index of the piece.
 type Fields = BTreeMap<usize, Field>;
 struct Change {
     style: Style,
     fields: Fields,
 }
 
-/// Change by a handle in several steps.
 struct Course {
     style: Style,
     steps: Vec<Fields>,
 }
 
 impl Handle {
-    /// Point of measure that must change by exactly the amount, found by iteration because it depends on more than the
-    /// moved points. `None` if moving the points suffices.
+    /// Point of measure that must change by exactly the amount, found by iteration. `None` if moving the points
+    /// suffices.
     fn aim(self, body: &Body<'_>) -> Option<Point> {
         match self {
             // The waist of a top is at its narrowest girth, whose level shifts.
@@ -132,8 +130,7 @@ impl Handle {
 }
 
 impl Style {
-    /// Handles that can be applied to the style, as far as the roles of its pieces show, in the order of
-    /// [`Handle::ALL`].
+    /// Applicable handles, as far as the roles of the pieces show, in the order of [`Handle::ALL`].
     pub fn handles(&self) -> Vec<Handle> {
         let anatomy = Anatomy::of(self);
         let body = Body::of(&anatomy, &self.points_of_measure());
@@ -161,8 +158,7 @@ impl Style {
         Ok(style)
     }
 
-    /// Applies one handle. If the two sides of a seam do not stay equally long, halves the amount up to `halvings`
-    /// times.
+    /// Halves the amount up to `halvings` times if the two sides of a seam do not stay equally long.
     fn moved_in_steps(&self, handle: Handle, amount_m: f64, halvings: u32) -> Result<Course, HandleError> {
         let halves = || -> Result<Course, HandleError> {
             let Course { style, mut steps } = self.moved_in_steps(handle, 0.5 * amount_m, halvings - 1)?;
@@ -215,7 +211,7 @@ impl Style {
         Ok(change)
     }
 
-    /// Applies a plan with a displacement of `driven_m`, chosen so that the measure changes by `amount_m`.
+    /// `driven_m` is chosen so that the measure changes by `amount_m`.
     fn driven(
         &self,
         fine: &Self,

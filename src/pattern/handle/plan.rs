@@ -6,13 +6,13 @@ use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef};
 use geom::V2;
 
-/// Displacement of a point of an outline per unit of amount.
+/// Displacement of a point per unit of amount.
 #[derive(Clone, Copy, Debug)]
 pub struct Move {
     pub at: EdgePoint,
-    /// Displacement in the plane of the piece, m/m. For a point that gives way, its direction.
+    /// In the plane of the piece, m/m. For a point that gives way, its direction.
     pub by: V2,
-    /// True at a corner at which a nearly straight edge may turn.
+    /// True where a nearly straight edge may turn.
     pub turns: bool,
 }
 
@@ -21,16 +21,17 @@ impl Move {
         Self { at, by, turns: false }
     }
 
+    /// Stays, and lets a nearly straight edge turn there.
     pub fn turning(at: EdgePoint) -> Self {
         Self { at, by: V2::zeros(), turns: true }
     }
 }
 
-/// Part of an edge between two arc lengths of the unchanged edge.
+/// Part of an edge, by arc lengths of the unchanged edge.
 #[derive(Clone, Copy, Debug)]
 pub struct Span {
     pub edge: EdgeRef,
-    /// Clamped to the edge.
+    /// Both ends, clamped to the edge.
     pub arcs_m: [f64; 2],
 }
 
@@ -52,7 +53,7 @@ impl Term {
     }
 }
 
-/// Condition sum(factor * change of length) = `change` * amount.
+/// Fulfilled if sum(factor * change of length) = `change` * amount.
 #[derive(Clone, Debug)]
 pub struct Condition {
     pub terms: Vec<Term>,
@@ -61,12 +62,11 @@ pub struct Condition {
 }
 
 impl Condition {
-    /// `change` is in m/m of amount.
+    /// The length of a chain changes by `change` m/m of amount.
     pub fn chain(chain: &Chain, change: f64) -> Self {
         Self::edges(&chain.iter().map(|step| step.edge).collect::<Vec<_>>(), change)
     }
 
-    /// The total length changes by `change` m/m of amount.
     pub fn edges(edges: &[EdgeRef], change: f64) -> Self {
         Self { terms: edges.iter().map(|edge| Term::whole(*edge, 1.0)).collect(), change }
     }
@@ -74,11 +74,11 @@ impl Condition {
 
 #[derive(Clone, Debug, Default)]
 pub struct Plan {
+    /// Driven and held points.
     pub moves: Vec<Move>,
-    /// Groups of points that give way. The points of a group share one unknown factor, as small as the conditions
-    /// permit.
+    /// Groups that share one unknown factor, as small as the conditions permit.
     pub gives: Vec<Vec<Move>>,
-    /// Conditions on lengths. `solve` adds one for each seam, whose two sides keep their length difference.
+    /// `solve` adds one for each seam, whose two sides keep their length difference.
     pub conditions: Vec<Condition>,
 }
 
@@ -92,12 +92,13 @@ impl Plan {
         self.gives.push(vec![Move::new(at, by)]);
     }
 
+    /// Holds the corners between the edges of a chain.
     pub fn hold(&mut self, anatomy: &Anatomy<'_>, chain: &Chain) {
         let corners = chain.windows(2).flat_map(|pair| ends_between(anatomy, pair));
         self.moves.extend(corners.map(|at| Move::new(at, V2::zeros())));
     }
 
-    /// Lets the lower end of every edge of a chain give way along its edge.
+    /// Lets the lower end of every edge give way along its edge.
     pub fn yield_ends(&mut self, anatomy: &Anatomy<'_>, chain: &Chain) {
         for (k, edge) in chain.iter().enumerate() {
             let down = along(anatomy, &vec![*edge]);
@@ -116,13 +117,13 @@ pub fn end(chain: &Chain) -> EdgeEnd {
     chain[chain.len() - 1]
 }
 
-/// Unit vector from the start of a chain to its end.
+/// Unit vector from start to end.
 pub fn along(anatomy: &Anatomy<'_>, chain: &Chain) -> V2 {
     let way = anatomy.place(end(chain)) - anatomy.place(start(chain));
     way.try_normalize(0.0).unwrap_or_else(V2::zeros)
 }
 
-/// Points of the corner between two successive edges of a chain: one, or two where a dart lies between the edges.
+/// Corner between two successive edges of a chain: one point, or two where a dart lies between the edges.
 pub fn ends_between(anatomy: &Anatomy<'_>, pair: &[EdgeEnd]) -> Vec<EdgePoint> {
     let below = pair[1].other();
     let is_one = anatomy.style().over_corner(pair[0]) == below;

@@ -9,8 +9,7 @@ use crate::style::{EdgePoint, EdgeRef, PathPart, Style};
 use geom::V2;
 use geom::polyline::{Polyline, self_crossing};
 
-/// Replaces the lines of the edges of some pieces by lines with as many vertices. Returns the changed style and the
-/// displacement fields of these pieces.
+/// Replaces edges by lines with as many vertices. Returns also the displacement fields of these pieces.
 pub fn with_lines(style: &Style, lines: BTreeMap<usize, Vec<Polyline>>) -> Change {
     let (mut moved, mut fields) = (style.clone(), BTreeMap::new());
     for (piece, lines) in lines {
@@ -42,7 +41,7 @@ fn carried_point(style: &Style, pieces: &[crate::style::StylePiece], at: EdgePoi
     EdgePoint { arc_m: carried(&style.edge(at.edge).line, &pieces[piece].edges[edge].line, at.arc_m), ..at }
 }
 
-/// First piece whose outline crosses itself after the change and not before, with the point of the crossing.
+/// First piece whose outline crosses itself after the change only, with the crossing.
 pub fn new_crossing(before: &Style, after: &Style) -> Option<(String, V2)> {
     let pairs = before.pieces.iter().zip(&after.pieces).filter(|(before, after)| before.edges != after.edges);
     let mut crossings = pairs.filter_map(|(before, after)| {

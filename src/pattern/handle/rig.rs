@@ -14,55 +14,53 @@ use crate::style::{Edge, EdgeRef, Style};
 use geom::V2;
 use geom::polyline::{Polyline, segment_distance};
 
-/// Distance below which two knots of an edge coincide, m.
 const SAME_M: f64 = 1e-6;
-/// Greatest distance of a straight edge from its chord, m. A flattened curve departs further.
+/// Greatest distance of a straight edge from its chord. A flattened curve departs further.
 const STRAIGHT_M: f64 = 0.2e-3;
-/// Turning angle of an outline below which two edges join smoothly, radians: 10 degrees.
+/// Turning angle below which two edges join smoothly: 10 degrees.
 const SMOOTH_RAD: f64 = 0.175;
 /// Share of a section, at either end, whose chord gives the direction of the outline there.
 const END_SHARE: f64 = 0.01;
 /// Least ratio of chord to length of a section whose points are parametrised by the chord.
 const ALONG_CHORD: f64 = 0.5;
-/// Least sine of the angles between the chord of a curve and its directions at both ends, for it to be scaled along these
-/// directions: 6 degrees. A flatter curve would be scaled by far more than its ends move.
+/// Least sine of the angles between a chord and the directions of its curve at both ends, for scaling along them: 6
+/// degrees. A flatter curve would be scaled by far more than its ends move.
 const LEAST_BOW: f64 = 0.1;
-/// Least depth of a curve, m, for it to be sheared so that it keeps its direction at one end: above the amounts by which
-/// ends are moved, so that it bends the same way afterwards.
+/// Least depth of a curve that is sheared to keep its direction at one end: above the amounts by which ends are moved,
+/// so that it bends the same way afterwards.
 const LEAST_DEPTH_M: f64 = 0.02;
-/// Greatest length of a segment of an edge that bends, m. A seam of 100 mm that is moved by 10 mm turns by less than 2
-/// degrees from one segment to the next.
+/// Longest segment of an edge that bends. A seam of 100 mm that is moved by 10 mm turns by less than 2 degrees from one
+/// to the next.
 const SEGMENT_M: f64 = 5e-3;
-/// Distance from a vertex below which a knot takes that vertex, m.
+/// Distance below which a knot takes a vertex.
 const BESIDE_M: f64 = 0.5e-3;
 
-/// Displacements of the vertices of each edge of the affected pieces, by the index of the piece.
+/// By piece, edge and vertex; only affected pieces.
 pub type Displacement = BTreeMap<usize, Vec<Vec<V2>>>;
 
-/// Outlines of the affected pieces with their knots.
 pub struct Rig<'a> {
     style: &'a Style,
     outlines: BTreeMap<usize, Outline>,
 }
 
 struct Outline {
-    /// Vertices, the first one repeated at the end, and their arc lengths.
+    /// Vertices, the first one repeated at the end.
     line: Polyline,
-    /// Index of the first vertex of each edge, then of the last vertex of the last edge.
+    /// First vertex of each edge, then the last vertex of the last edge.
     firsts: Vec<usize>,
-    /// Arc lengths, increasing.
+    /// Arc lengths in increasing order.
     knots: Vec<f64>,
-    /// Arc lengths of the knots at which a nearly straight edge may turn.
+    /// Arc lengths where a nearly straight edge may turn.
     turning: Vec<f64>,
 }
 
-/// True if the outline has a corner at the end of an edge.
 pub fn is_sharp(style: &Style, EdgeEnd { edge: EdgeRef { piece, edge }, is_last }: EdgeEnd) -> bool {
     let vertex = edge + usize::from(is_last);
     Outline::new(&style.pieces[piece].edges).is_some_and(|outline| outline.is_sharp(outline.firsts[vertex]))
 }
 
 impl<'a> Rig<'a> {
+    /// Sets knots at the points of the moves.
     pub fn new<'m>(style: &'a Style, moves: impl Iterator<Item = &'m Move>) -> Self {
         let mut outlines: BTreeMap<usize, Outline> = BTreeMap::new();
         for moved in moves {
@@ -81,7 +79,7 @@ impl<'a> Rig<'a> {
         Self { style, outlines }
     }
 
-    /// The style with vertices at the knots and short segments, on the edges that some moves bend.
+    /// Adds vertices at the knots and short segments, on the edges that the moves bend.
     pub fn refined(&self, moves: &[Move]) -> Style {
         let mut style = self.style.clone();
         for (piece, outline) in &self.outlines {
@@ -98,7 +96,7 @@ impl<'a> Rig<'a> {
         style
     }
 
-    /// In m/m of amount.
+    /// Of every vertex, m/m of amount.
     pub fn displacement(&self, moves: &[Move]) -> Displacement {
         let edges = |(piece, outline): (&usize, &Outline)| {
             let own: Vec<Move> = moves.iter().filter(|m| m.at.edge.piece == *piece).copied().collect();
@@ -112,6 +110,7 @@ impl<'a> Rig<'a> {
 }
 
 impl Outline {
+    /// Sharp corners become knots.
     fn new(edges: &[Edge]) -> Option<Self> {
         let mut points = Vec::new();
         let mut firsts = vec![0];
@@ -145,7 +144,7 @@ impl Outline {
         if arc_m > self.length_m() - SAME_M { 0.0 } else { arc_m }
     }
 
-    /// Index of the knot at an arc length, or the index at which it would be inserted.
+    /// Index at an arc length, or where it would be inserted.
     fn knot(&self, arc_m: f64) -> usize {
         self.knots.partition_point(|knot| *knot < arc_m - SAME_M)
     }
@@ -166,7 +165,7 @@ impl Outline {
         told
     }
 
-    /// Sections between neighbouring knots, with the indices of both knots. The last section passes the first vertex.
+    /// Between neighbouring knots, whose indices stand beside. The last section passes the first vertex.
     fn sections(&self) -> impl Iterator<Item = (Section, [usize; 2])> + '_ {
         let n = self.knots.len();
         (0..n).map(move |k| {
@@ -176,7 +175,7 @@ impl Outline {
         })
     }
 
-    /// In arc length.
+    /// Intervals of arc length that the moves bend, m.
     fn bent(&self, moves: &[Move]) -> Vec<[f64; 2]> {
         let told = self.told(moves);
         let is_moved = |knot: usize| told[knot] != V2::zeros();
@@ -190,7 +189,7 @@ impl Outline {
         arcs.collect()
     }
 
-    /// The first vertex occurs once.
+    /// Displacement of each vertex; the first occurs once.
     fn moved(&self, moves: &[Move]) -> Vec<V2> {
         let told = self.told(moves);
         let n = self.line.points().len() - 1;
@@ -216,7 +215,6 @@ impl Outline {
     }
 }
 
-/// Adds vertices to a line at the arc lengths of knots, and divides long segments.
 fn refined(line: &Polyline, knots: &[f64]) -> Polyline {
     let mut ends = line.arcs().to_vec();
     for knot in knots.iter().filter(|knot| (0.0..line.length()).contains(*knot)) {
@@ -237,30 +235,28 @@ struct Section {
     /// The second exceeds the length of the outline if the section passes the first vertex.
     arcs_m: [f64; 2],
     ends: [V2; 2],
-    /// Unit vectors along the outline at both ends.
+    /// Unit vectors at both ends.
     along: [V2; 2],
-    /// True if points are parametrised by their projection onto the chord. Where the section turns back, they are
-    /// parametrised by arc length.
+    /// True for parameters by projection onto the chord, false for arc length, where the section turns back.
     by_chord: bool,
     is_corner: [bool; 2],
     kind: Kind,
 }
 
-/// Kind of a section, by which the displacement of its ends is carried to its points. The first three are affine maps,
-/// which make no inflection.
+/// Tells by what the displacement of the ends is carried to the points. The first three are affine maps, which make no
+/// inflection.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     /// Straight from corner to corner, and stays so.
     Stiff,
-    /// Bends one way, by enough to tell its directions at both ends apart. Is scaled along these directions, so that it
-    /// keeps both.
+    /// Bends one way, by enough to tell its directions at both ends apart. Is scaled along them, so that it keeps both.
     Bow,
     /// May turn at the given end. Is sheared so that it keeps its direction at the other end.
     Sheared(usize),
     /// May turn at the given end, and is too flat to be sheared. Turns as a whole; the section beside it takes up the
     /// turn.
     Turned(usize),
-    /// Any other: a cubic Hermite interpolation with the component of the change along the outline as slope at each end.
+    /// Cubic Hermite interpolation with the component of the change along the outline as slope at each end.
     Smooth,
 }
 
@@ -326,7 +322,7 @@ impl Section {
         !other.is_corner[end] && self.kind != Kind::Stiff && !matches!(self.kind, Kind::Turned(_))
     }
 
-    /// Angle by which the section turns as a whole, radians, if its ends are displaced.
+    /// Turn of the section as a whole if its ends are displaced, radians.
     fn turn(&self, [from, to]: [V2; 2]) -> f64 {
         let chord = self.ends[1] - self.ends[0];
         chord.perp(&(to - from)) / chord.norm_squared()
@@ -338,7 +334,7 @@ impl Section {
         [way.perp(&last) / first.perp(&last), first.perp(&way) / first.perp(&last)]
     }
 
-    /// Position along the section, from 0 to 1.
+    /// From 0 to 1.
     fn share(&self, place: V2, arc_m: f64) -> f64 {
         let chord = self.ends[1] - self.ends[0];
         if self.by_chord {
@@ -348,7 +344,7 @@ impl Section {
         }
     }
 
-    /// Displacement of a point at a position along the section, with the turns of the sections beside it, radians.
+    /// Displacement at the share `t`. `turns` are those of the sections beside it, radians.
     fn between(&self, place: V2, t: f64, [from, to]: [V2; 2], turns: [f64; 2]) -> V2 {
         let change = to - from;
         let (square, cube) = (t * t, t * t * t);

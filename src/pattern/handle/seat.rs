@@ -12,22 +12,22 @@ use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef};
 use geom::V2;
 
+/// Lies across one face of the legs.
 pub struct Wedge {
     face: Face,
-    /// Height of the wedge, as a share of the way from the hip to the waist.
+    /// Height as a share of the way from the hip to the waist.
     up: f64,
-    /// Displacement of the fork outwards, m/m of the wedge.
+    /// Displacement outwards, m/m of the wedge.
     fork: f64,
 }
 
-/// Wedge at the seat line. The fork takes half of it, as published amounts do: 10 to 30 mm and 5 to 15 mm
-/// [Liechty10].
+/// Lies at the seat line. The fork takes half of it, as published amounts do: 10 to 30 mm and 5 to 15 mm [Liechty10].
 pub const SEAT: Wedge = Wedge { face: Face::Back, up: 0.0, fork: 0.5 };
-/// Wedge at the abdomen, half-way between hip and waist.
+/// Lies half-way between hip and waist.
 pub const ABDOMEN: Wedge = Wedge { face: Face::Front, up: 0.5, fork: 0.0 };
 
-/// Opens a wedge in one face of the legs: full at the seat seam, to nothing at the outseam. Everything above it turns
-/// about its point at the outseam, so the waist keeps its length.
+/// Opens a wedge from the seat seam to nothing at the outseam. Everything above turns about its point at the outseam,
+/// so the waist keeps its length.
 pub fn wedge(body: &Body<'_>, Wedge { face, up, fork }: &Wedge) -> Option<Plan> {
     let anatomy = body.anatomy;
     let mut plan = Plan::default();
@@ -64,7 +64,7 @@ pub fn wedge(body: &Body<'_>, Wedge { face, up, fork }: &Wedge) -> Option<Plan> 
     (!body.legs.is_empty()).then_some(plan)
 }
 
-/// Lengthens front and back legs between waist and hip, level all round.
+/// Lengthens the legs between waist and hip, level all round.
 pub fn depth(body: &Body<'_>) -> Option<Plan> {
     let anatomy = body.anatomy;
     let mut plan = Plan::default();
@@ -83,7 +83,7 @@ pub fn depth(body: &Body<'_>) -> Option<Plan> {
     (!body.legs.is_empty()).then_some(plan)
 }
 
-/// Arc lengths are from the waist to the hip level, m.
+/// Seams of one face of a leg, with the arc lengths from the waist at which the hip level meets them, m.
 struct Hips<'l> {
     crotch: &'l Chain,
     outer: &'l Chain,
@@ -103,7 +103,7 @@ fn waist_of(leg: &Legs<'_>, piece: usize) -> Vec<EdgeRef> {
     leg.waist.iter().copied().filter(|edge| edge.piece == piece).collect()
 }
 
-/// Raises the upper edge at the front or back seat seam. At the outseam the edge stays, and it keeps its length.
+/// Raises the upper edge at the seat seam. At the outseam it stays, and it keeps its length.
 pub fn rise(body: &Body<'_>, face: Face) -> Option<Plan> {
     if body.legs.is_empty() {
         return skirt_rise(body, face);
@@ -122,8 +122,8 @@ pub fn rise(body: &Body<'_>, face: Face) -> Option<Plan> {
     Some(plan)
 }
 
-/// Raises the upper edge of a skirt at the centre of one face. `None` for a skirt that hangs from a bodice, or that is
-/// not one face of one or two pieces.
+/// Raises the upper edge at the centre. `None` for a skirt that hangs from a bodice, or that is not one face of one or
+/// two pieces.
 fn skirt_rise(body: &Body<'_>, face: Face) -> Option<Plan> {
     let anatomy = body.anatomy;
     let is_face = |piece: usize| anatomy.parts[piece] == Part::Skirt(face);
@@ -151,7 +151,7 @@ fn skirt_rise(body: &Body<'_>, face: Face) -> Option<Plan> {
     Some(plan)
 }
 
-/// End of the upper edge of half a skirt that is farthest from its side seam.
+/// End of the upper edge of half a skirt that is farthest from the side seam.
 fn far_end(body: &Body<'_>, waist: &[EdgeRef], side: &Side) -> Option<EdgePoint> {
     let from = body.anatomy.place(start(&side.chain));
     let own = waist.iter().filter(|edge| edge.piece == side.chain[0].edge.piece);
@@ -160,8 +160,8 @@ fn far_end(body: &Body<'_>, waist: &[EdgeRef], side: &Side) -> Option<EdgePoint>
     ends.max_by(|a, b| away(a).total_cmp(&away(b))).map(|end| body.point(end))
 }
 
-/// Moves the forks of front and back outwards, and the inseams at the thigh with them. The inseams keep their lengths,
-/// and the seat seams stay at the hip.
+/// Moves the forks outwards, and the inseams at the thigh with them. The inseams keep their lengths, and the seat seams
+/// stay at the hip.
 pub fn fork(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
     for side in body.sides.iter().filter(|side| matches!(side.limb, Limb::Inner(_))) {

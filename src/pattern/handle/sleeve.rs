@@ -5,7 +5,7 @@ use super::plan::{Condition, Move, Plan, end};
 use super::upper::{cap_terms, hold_sleeve, move_underarm};
 use geom::V2;
 
-/// Widens half of the bicep: the underarm points move outwards, and give way upwards so that the cap keeps its length.
+/// The underarm points move outwards, and give way upwards so that the cap keeps its length.
 pub fn bicep(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
     for cap in body.caps() {
@@ -20,7 +20,7 @@ pub fn bicep(body: &Body<'_>) -> Option<Plan> {
     (!plan.moves.is_empty()).then_some(plan)
 }
 
-/// Raises the cap: the underarm points move down the arm, and give way inwards so that the cap keeps its length.
+/// The underarm points move down the arm, and give way inwards so that the cap keeps its length.
 pub fn cap_height(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
     for cap in body.caps() {
@@ -35,7 +35,7 @@ pub fn cap_height(body: &Body<'_>) -> Option<Plan> {
     (!plan.moves.is_empty()).then_some(plan)
 }
 
-/// Widens half of the lower edge: the lower ends of the underarm seam move outwards across the arm.
+/// Widens half of the lower edge: the lower ends of the underarm seam move outwards.
 pub fn cuff(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
     for cap in body.caps() {

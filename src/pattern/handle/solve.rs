@@ -8,18 +8,17 @@ use super::rig::{Displacement, Rig};
 use crate::style::{EdgeRef, Style};
 use geom::polyline::Polyline;
 
-/// In m.
 const DIFFERENCE_M: f64 = 1e-6;
-/// Residual below which a condition holds, m: a thousandth of the accepted change of a seam or length.
+/// Residual below which a condition holds: a thousandth of the accepted change of a seam or length.
 const HOLDS_M: f64 = 1e-7;
-/// Greatest number of Newton steps. Two or three are usual.
+/// Newton takes two or three.
 const MOST_STEPS: usize = 12;
 /// Regularisation of the normal matrix J J^T, for linearly dependent conditions.
 const REGULAR: f64 = 1e-9;
 
 pub struct SeamResidual {
     pub seam: usize,
-    /// Change of the difference between the lengths of its two sides.
+    /// Change of the difference between the lengths of its sides.
     pub off_m: f64,
 }
 
@@ -29,6 +28,7 @@ pub struct Solved {
     pub conditions_m: Vec<f64>,
 }
 
+/// Adds enough vertices on the edges that a plan bends.
 pub fn refined(style: &Style, plan: &Plan) -> Style {
     let moves: Vec<Move> = all_moves(plan).copied().collect();
     Rig::new(style, moves.iter()).refined(&moves)
@@ -38,7 +38,7 @@ fn all_moves(plan: &Plan) -> impl Iterator<Item = &Move> {
     plan.moves.iter().chain(plan.gives.iter().flatten())
 }
 
-/// Drives the points of a plan by an amount, m, and lets the others give way as far as the conditions require.
+/// Drives the points of a plan, and lets the others give way as far as the conditions require.
 pub fn solved(style: &Style, plan: &Plan, amount_m: f64) -> Solved {
     // The displacement of a give is zero at the driven points, but not at the points of other gives.
     let displacement = |moves: &[Move]| Rig::new(style, plan.moves.iter().chain(moves)).displacement(moves);
@@ -75,7 +75,7 @@ pub fn solved(style: &Style, plan: &Plan, amount_m: f64) -> Solved {
     }
 }
 
-/// Conditions that the two sides of a seam keep their length difference, for every seam with an affected piece.
+/// The two sides keep their length difference, for every seam with an affected piece.
 fn seam_conditions(style: &Style, touched: &[usize]) -> Vec<(usize, Condition)> {
     let is_touched = |edge: &EdgeRef| touched.contains(&edge.piece);
     let seams = style.seams.iter().enumerate().filter(|(_, seam)| seam.a.iter().chain(&seam.b).any(is_touched));
@@ -121,7 +121,6 @@ impl System<'_> {
         Polyline::new(points).unwrap_or_else(|| line.clone())
     }
 
-    /// In m.
     fn missed(&self, given: &[f64]) -> Vec<f64> {
         let mut kept = BTreeMap::new();
         let mut change_m = |span: &Span| {
@@ -137,7 +136,7 @@ impl System<'_> {
         self.conditions.iter().map(&mut miss).collect()
     }
 
-    /// Jacobian of the residuals by finite differences: one row for each condition, one column for each give.
+    /// Jacobian by finite differences: one row for each condition, one column for each give.
     fn slopes(&self, given: &[f64], missed: &[f64]) -> Vec<Vec<f64>> {
         let mut rows = vec![vec![0.0; given.len()]; missed.len()];
         for k in 0..given.len() {
@@ -151,7 +150,7 @@ impl System<'_> {
     }
 }
 
-/// Arc length on a displaced line, m, of the point that had the arc length `arc_m` on the line before.
+/// Arc length on the line after of the point at `arc_m` on the line before, m.
 pub fn carried(before: &Polyline, after: &Polyline, arc_m: f64) -> f64 {
     let arcs = before.arcs();
     let next = arcs.partition_point(|arc| *arc <= arc_m).clamp(1, arcs.len() - 1);

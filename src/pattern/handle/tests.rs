@@ -26,13 +26,12 @@ fn points_mm(style: &Style) -> Vec<(Point, f64)> {
     style.points_of_measure().iter().map(|measure| (measure.point, mm(measure.length_m))).collect()
 }
 
-/// Length of the first side of each seam minus that of its second.
+/// First side of each seam minus the second.
 fn gaps_mm(style: &Style) -> Vec<f64> {
     let length = |side: &[EdgeRef]| side.iter().map(|edge| style.edge(*edge).line.length()).sum::<f64>();
     style.seams.iter().map(|seam| mm(length(&seam.a) - length(&seam.b))).collect()
 }
 
-/// In m.
 fn farthest_m(outline: &[V2], other: &[V2]) -> f64 {
     let off = |from: &[V2], to: &[V2]| from.iter().map(|p| boundary_distance(to, p)).fold(0.0, f64::max);
     off(outline, other).max(off(other, outline))
@@ -43,7 +42,7 @@ fn styles_apart_mm(style: &Style, other: &Style) -> f64 {
     mm(pairs.map(|(piece, other)| farthest_m(&piece.outline(), &other.outline())).fold(0.0, f64::max))
 }
 
-/// Greatest turning angle inside each edge of a piece that is no corner, degrees, and the number of corners inside it.
+/// Greatest turning angle inside each edge that is no corner, degrees, and the number of corners inside it.
 fn kinks(piece: &StylePiece) -> Vec<(f64, usize)> {
     const CORNER_DEG: f64 = 20.0;
     let turns =
@@ -68,7 +67,7 @@ fn mirrored(outline: &[V2], about: f64) -> Vec<V2> {
     outline.iter().map(|p| V2::new(2.0 * about - p.x, p.y)).collect()
 }
 
-/// Checks that hold for every changed style: seams are paired, outlines have no crossings and new kinks, and it meshes.
+/// Checks that seams are paired, outlines have no crossings and new kinks, and the style meshes.
 fn sound(what: &str, before: &Style, after: &Style) {
     for (gap, (was, seam)) in gaps_mm(after).iter().zip(gaps_mm(before).iter().zip(&before.seams)) {
         assert!(gap.abs() < was.abs() + 0.3, "{what}: seam {} is {gap} apart, was {was}", seam.name);
@@ -91,8 +90,7 @@ fn sound(what: &str, before: &Style, after: &Style) {
     after.mesh(0.03).unwrap_or_else(|error| panic!("{what}: {error}"));
 }
 
-/// Points of measure that a handle changes, each with its change per unit of the handle. The second list has those that
-/// change as a consequence.
+/// Points of measure that a handle changes, each per unit of the handle, and those that change as a consequence.
 #[rustfmt::skip]
 fn promised(handle: Handle) -> (Vec<(Point, f64)>, &'static [Point]) {
     use Point::*;
@@ -273,8 +271,8 @@ fn right_and_left_stay_alike_and_square_corners_square() {
     }
 }
 
-/// Number of inflections of a line: changes of the sense in which it turns by more than a tenth of a degree for each
-/// centimetre over at least two degrees.
+/// Counts changes of the sense in which a line turns by more than a tenth of a degree for each centimetre over at least
+/// two degrees.
 fn inflections(line: &Polyline) -> usize {
     const STEP_M: f64 = 0.01;
     const STRAIGHT_DEG: f64 = 0.1;
@@ -293,7 +291,6 @@ fn inflections(line: &Polyline) -> usize {
     stretches.windows(2).filter(|pair| pair[0] * pair[1] < 0.0).count()
 }
 
-/// True for an edge of an armhole, a cap, a neckline or a seat seam, by its name in the drafts.
 fn is_curve(edge: &Edge) -> bool {
     let named = |start: &&str| edge.name.as_deref().is_some_and(|name| name.starts_with(*start));
     ["armhole", "cap", "neck", "crotch"].iter().any(named)
@@ -441,6 +438,7 @@ fn redrawn_pieces_make_the_changed_style_by_the_same_seam_file() {
     check(Model::Dress, &[(Waist, -0.01), (NeckWidth, 0.01), (SkirtLength, 0.03)]);
 }
 
+/// Corners stand in the file as shares of their piece, which a handle changes.
 #[test]
 fn a_seam_file_that_tells_where_corners_lie_tells_where_they_have_gone() {
     let draft = Model::Tshirt.drafts().swap_remove(0);
@@ -507,7 +505,7 @@ fn shared(file: &str) -> Option<PathBuf> {
     path.exists().then_some(path)
 }
 
-/// Style of a file of another program, sewn as proposed if it holds no seams.
+/// File of another program, sewn as proposed if it holds no seams.
 fn foreign(path: &Path) -> Style {
     let bytes = std::fs::read(path).expect("readable");
     let name = path.display().to_string();

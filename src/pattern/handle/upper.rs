@@ -10,7 +10,7 @@ use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef};
 use geom::V2;
 
-/// Lowers the shoulder points, front and back. Shoulder and armhole keep their lengths, so the armhole sinks as well.
+/// Lowers the shoulder points. Shoulder and armhole keep their lengths, so the armhole sinks as well.
 pub fn shoulder_slope(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
     for Shoulder { seam, outwards } in shoulders(body)? {
@@ -47,7 +47,7 @@ pub fn forward_shoulder(body: &Body<'_>) -> Option<Plan> {
     Some(plan)
 }
 
-/// Moves the shoulder points outwards along the shoulder, front and back. The armhole keeps its length.
+/// Moves the shoulder points outwards along the shoulder. The armhole keeps its length.
 pub fn shoulder_length(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
     for Shoulder { seam, outwards } in shoulders(body)? {
@@ -62,8 +62,8 @@ pub fn shoulder_length(body: &Body<'_>) -> Option<Plan> {
     Some(plan)
 }
 
-/// Widens the neck: the high points of the shoulder (at the neck) move outwards along the shoulder, each by half of the
-/// amount. The centres of the neckline stay.
+/// Moves the high points of the shoulder (at the neck) outwards along it, each by half of the amount. The centres of
+/// the neckline stay.
 pub fn neck_width(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
     for Shoulder { seam, outwards } in shoulders(body)? {
@@ -78,7 +78,6 @@ pub fn neck_width(body: &Body<'_>) -> Option<Plan> {
     Some(plan)
 }
 
-/// Lowers the neckline at the centre of the front or back.
 pub fn neck_depth(body: &Body<'_>, face: Face) -> Option<Plan> {
     let mut plan = Plan::default();
     for at in neck_centres(body, face)? {
@@ -89,7 +88,7 @@ pub fn neck_depth(body: &Body<'_>, face: Face) -> Option<Plan> {
     Some(plan)
 }
 
-/// One, or one on each half.
+/// One point, or one on each half.
 pub fn neck_centres(body: &Body<'_>, face: Face) -> Option<Vec<EdgePoint>> {
     let (trunk, anatomy) = (body.trunk.as_ref()?, body.anatomy);
     if let Centre::Within(at) = trunk.neck_centre(face)? {
@@ -102,8 +101,8 @@ pub fn neck_centres(body: &Body<'_>, face: Face) -> Option<Vec<EdgePoint>> {
     Some(centres.collect())
 }
 
-/// Lowers the underarm points along the side seam. Those of the sleeve move as far down the arm, and give way across
-/// the arm so that the cap fits the armhole.
+/// Lowers the underarm points along the side seam. Those of the sleeve move as far down the arm, and give way across it
+/// so that the cap fits.
 pub fn armhole_depth(body: &Body<'_>) -> Option<Plan> {
     if body.armholes.is_empty() {
         return None;
@@ -131,11 +130,11 @@ pub fn armhole_depth(body: &Body<'_>) -> Option<Plan> {
 struct Shoulder {
     /// Directed outwards from the neck.
     seam: Chain,
-    /// Unit vector from the neck to the shoulder point.
+    /// Unit vector from the neck.
     outwards: V2,
 }
 
-/// Both sides of all shoulder seams. `None` for a garment without any, or with a vertical one.
+/// Both sides of all seams. `None` for a garment without any, or with a vertical one.
 fn shoulders(body: &Body<'_>) -> Option<Vec<Shoulder>> {
     let trunk = body.trunk.as_ref().filter(|trunk| !trunk.shoulders.is_empty())?;
     let sides = trunk.shoulders.iter().flatten();
@@ -144,8 +143,8 @@ fn shoulders(body: &Body<'_>) -> Option<Vec<Shoulder>> {
     found.iter().all(|shoulder| shoulder.outwards.x != 0.0).then_some(found)
 }
 
-/// Keeps the length of every armhole: its two underarm points give way down the side seam, by one factor for front and
-/// back. A free lower end of the side seam gives way for the small difference between both sides.
+/// Keeps the length of every armhole: its underarm points give way down the side seam, by one factor for front and
+/// back. A free lower end of the side seam gives way for the small difference.
 fn armholes_keep(body: &Body<'_>, plan: &mut Plan) {
     for faces in body.armholes.chunks(Face::BOTH.len()) {
         let edges: Vec<EdgeRef> = faces.iter().flat_map(|face| face.edges.iter().copied()).collect();
@@ -164,6 +163,7 @@ fn armholes_keep(body: &Body<'_>, plan: &mut Plan) {
     sleeves_follow(body, plan);
 }
 
+/// Lets joints between the edges give way along the armhole.
 fn slide_joints(body: &Body<'_>, plan: &mut Plan, face: &Armhole) {
     for edge in &face.edges {
         let corner = body.anatomy.style().over_corner(EdgeEnd::new(*edge, true));
@@ -174,27 +174,26 @@ fn slide_joints(body: &Body<'_>, plan: &mut Plan, face: &Armhole) {
 }
 
 impl Armhole {
-    /// Unit vector down the first edge of the side seam, at the underarm.
+    /// Unit vector along the side seam at the underarm.
     pub fn down(&self, body: &Body<'_>) -> V2 {
         along(body.anatomy, &vec![self.side[0]])
     }
 }
 
-/// Holds the armholes at half their height, where the widths across front and back are measured.
+/// Holds half the height, where the widths across front and back are measured.
 pub fn hold_across(body: &Body<'_>, plan: &mut Plan) {
     plan.moves.extend(
         body.armholes.iter().filter_map(|armhole| half_way_up(body, armhole)).map(|at| Move::new(at, V2::zeros())),
     );
 }
 
-/// Point of an armhole at half its height. `None` for one without a shoulder point.
+/// `None` for an armhole without a shoulder point.
 pub fn half_way_up(body: &Body<'_>, armhole: &Armhole) -> Option<EdgePoint> {
     let (tip, low) = (body.anatomy.place(armhole.tip?).y, body.anatomy.place(armhole.underarm).y);
     body.anatomy.meeting(&armhole.edges, |p| p.y - 0.5 * (tip + low))
 }
 
-/// Keeps each half cap as long as the part of the armhole that is sewn to it: the underarm point of the sleeve gives
-/// way across the arm.
+/// Keeps each half cap as long as its part of the armhole: the underarm point of the sleeve gives way across the arm.
 pub fn sleeves_follow(body: &Body<'_>, plan: &mut Plan) {
     for armhole in &body.armholes {
         let Some(cap) = &armhole.cap else { continue };
@@ -211,18 +210,17 @@ pub fn sleeves_follow(body: &Body<'_>, plan: &mut Plan) {
     }
 }
 
-/// Length of a half cap, as the terms of a [`Condition`].
 pub fn cap_terms(cap: &HalfCap) -> Vec<Term> {
     cap.spans.iter().map(|span| Term { span: *span, factor: 1.0 }).collect()
 }
 
-/// Holds the sleeve at the top of its cap, and at the bicep level of the underarm seam.
+/// Holds the top of the cap, and the bicep level of the underarm seam.
 pub fn hold_sleeve(body: &Body<'_>, plan: &mut Plan, cap: &HalfCap) {
     plan.drive(cap.top, V2::zeros());
     plan.moves.extend(cap.bicep(body.anatomy).map(|at| Move::new(at, V2::zeros())));
 }
 
-/// Adds moves by `by` of the underarm point of a sleeve, and of the point at the bicep level below.
+/// Moves the underarm point and the point at the bicep level below.
 pub fn move_underarm(body: &Body<'_>, moves: &mut Vec<Move>, cap: &HalfCap, by: V2) {
     moves.push(Move::new(body.point(cap.underarm), by));
     moves.extend(cap.bicep(body.anatomy).map(|at| Move::new(at, by)));

@@ -54,7 +54,6 @@ impl Limb {
     }
 }
 
-/// True if both edges beside the mouth of a dart belong to the waist of a part.
 fn is_waist(body: &Body<'_>, limb: Limb, beside: &[EdgeRef; 2]) -> bool {
     let anatomy = body.anatomy;
     let all = |edges: &[EdgeRef]| beside.iter().all(|edge| edges.contains(edge));
@@ -70,8 +69,8 @@ fn is_waist(body: &Body<'_>, limb: Limb, beside: &[EdgeRef; 2]) -> bool {
     }
 }
 
-/// Moves the seat seam outwards at the back waist, so that half of the waist grows by the amount. The seat seam keeps
-/// its length and its place at the hip.
+/// Moves the seat seam outwards at the back waist, so that half of the waist grows by the amount. The seam keeps its
+/// length and its place at the hip.
 pub fn centre_back(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
     for leg in &body.legs {

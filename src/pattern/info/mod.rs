@@ -15,7 +15,7 @@ use geom::V2;
 /// Names of the column that identifies the piece of a row.
 const PIECE: [&str; 4] = ["piece", "name", "piece name", "block"];
 const MOST_BYTES: usize = 16 << 20;
-/// Length of a grain line from a table, as a share of the extent of the piece along it.
+/// Length of a grain line from a table, over the extent of the piece along it.
 const GRAIN_SHARE: f64 = 0.5;
 
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -26,13 +26,13 @@ pub struct InfoError {
     pub file: String,
     /// The row of column names is 1.
     pub row: Option<usize>,
-    /// `None` if the error is in no column.
+    /// Heading. `None` if the error is in no column.
     pub column: Option<String>,
     pub found: String,
     pub accepted: String,
 }
 
-/// Cells of a row, with its number in the file.
+/// Number in the file, and cells.
 type Row = (usize, Vec<String>);
 
 #[derive(Clone, Debug, PartialEq)]
@@ -42,8 +42,7 @@ pub struct PieceTable {
     rows: Vec<Row>,
 }
 
-/// Reads a table: the first sheet of an XLSX file, or CSV in UTF-8 with commas, semicolons or tabs. `file` is its name
-/// for messages.
+/// Reads the first sheet of an XLSX file, or CSV in UTF-8 with commas, semicolons or tabs.
 pub fn read(bytes: &[u8], file: &str) -> Result<PieceTable, InfoError> {
     let fail = |row: Option<usize>, found: String, accepted: &str| InfoError {
         file: file.to_owned(),
@@ -79,7 +78,6 @@ pub fn read(bytes: &[u8], file: &str) -> Result<PieceTable, InfoError> {
     Ok(table)
 }
 
-/// Rows of the first sheet of a workbook. The error is what is wrong with it.
 fn workbook_rows(bytes: &[u8]) -> Result<Vec<Row>, String> {
     let sheet = Workbook::open(bytes)?.sheet(0)?;
     let mut faults = sheet.rows.iter().flat_map(|row| row.cells.iter().map(move |cell| (row.line, cell)));
@@ -89,7 +87,7 @@ fn workbook_rows(bytes: &[u8]) -> Result<Vec<Row>, String> {
     Ok(sheet.rows.into_iter().map(|row| (row.line, row.cells)).collect())
 }
 
-/// Rows of CSV with their numbers. The error is the number of a malformed row and what is wrong with it.
+/// The error is the number of a malformed row and its fault.
 fn csv_rows(bytes: &[u8]) -> Result<Vec<Row>, (usize, String)> {
     let text = table::text(bytes).map_err(|line| (line, "a byte that is no UTF-8".to_owned()))?;
     let rows = table::rows(text);
@@ -115,8 +113,8 @@ impl PieceTable {
         }
     }
 
-    /// Adds the information of the table to the pieces of a pattern. It overrides that of the pattern, except for grain
-    /// lines.
+    /// Overrides the information of the pattern, except for grain lines. Fails where a row matches no piece, or two
+    /// rows one.
     pub fn merge(&self, pattern: &mut PatternFile) -> Result<(), InfoError> {
         let Some(by) = self.column(&PIECE) else { return Ok(()) };
         let size_by = self.column(&["size"]);
@@ -136,7 +134,7 @@ impl PieceTable {
         Ok(())
     }
 
-    /// Indices of the pieces of a row: of its size, or of all sizes if it names none.
+    /// Pieces of the row's size, or of all sizes if it names none.
     fn meant(&self, row: usize, by: usize, name: &str, size: &str, pieces: &[Piece]) -> Result<Vec<usize>, InfoError> {
         let is_of =
             |piece: &Piece| size.is_empty() || piece.size.as_deref().is_some_and(|s| s.eq_ignore_ascii_case(size));
@@ -200,7 +198,7 @@ fn set_text(piece: &mut Piece, key: &str, value: &str) {
     piece.texts.push((key.to_owned(), value.to_owned()));
 }
 
-/// Grain line at a given angle through the centre of an outline.
+/// Goes through the centre of the outline.
 fn grain(outline: &[V2], angle_deg: f64) -> [V2; 2] {
     let (sine, cosine) = angle_deg.to_radians().sin_cos();
     let along = V2::new(cosine, sine);

@@ -18,24 +18,25 @@ use geom::units::mm;
 
 pub const EDGE_LENGTH_RANGE_M: Range<f64> = 1e-3..0.2;
 
-/// Greatest number of triangles of a mesh. A coat at 5 mm has a quarter of it, and a drape of so many would take more
-/// than a day.
+/// A coat at 5 mm has a quarter of it, and a drape of so many would take more than a day.
 const MOST_TRIANGLES: f64 = 400_000.0;
 
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MeshError {
     #[error("edge length {found_mm} mm; accepted: {least_mm} to {greatest_mm} mm")]
     EdgeLength { found_mm: f64, least_mm: f64, greatest_mm: f64 },
+    /// More triangles than can be draped.
     #[error(
         "about {thousands} thousand triangles at edge length {edge_length_mm} mm (pieces of {area_m2:.1} m2, the longest {longest_m:.1} m \
          long); accepted: at most 400 thousand; is the unit of the pattern right?"
     )]
     TooFine { edge_length_mm: f64, thousands: u64, area_m2: f64, longest_m: f64 },
-    /// The outline, sampled at the edge length, crosses itself or cannot be triangulated.
+    /// Outline at the edge length crosses itself or cannot be triangulated.
     #[error(
         "piece `{piece}` at edge length {edge_length_mm} mm: {reason}; accepted: an outline free of crossings, or a shorter edge length"
     )]
     Piece { piece: String, edge_length_mm: f64, reason: String },
+    /// Measurement is a straight line.
     #[error(
         "{place}: the line from {from} to {to} (mm) leaves piece `{piece}`; accepted: points that see each other across the cloth"
     )]
@@ -43,9 +44,8 @@ pub enum MeshError {
         /// Measurement or fit level.
         place: String,
         piece: String,
-        /// In the plane of the piece, as text, mm.
+        /// First end in the plane of the piece, as text, mm.
         from: String,
-        /// In the plane of the piece, as text, mm.
         to: String,
     },
 }
@@ -55,12 +55,12 @@ pub struct MeshQuality {
     pub min_angle_deg: f64,
     pub min_edge_m: f64,
     pub max_edge_m: f64,
-    /// Mean over all edges of all triangles: an inner edge counts twice.
+    /// Mean over the edges of all triangles: an inner edge counts twice.
     pub mean_edge_m: f64,
 }
 
 impl MeshQuality {
-    /// Of the garment at rest. `None` without triangles.
+    /// Measured at rest. `None` without triangles.
     pub fn of(garment: &Garment) -> Option<Self> {
         let mut lengths = Vec::new();
         let mut min_angle = f64::INFINITY;
@@ -79,6 +79,7 @@ impl MeshQuality {
 }
 
 impl Style {
+    /// Refuses too many triangles before any work is done.
     fn check_bounds(&self, edge_length_m: f64) -> Result<(), MeshError> {
         let outlines: Vec<Vec<V2>> = self.pieces.iter().map(StylePiece::outline).collect();
         let area_m2: f64 = outlines.iter().map(|outline| signed_area(outline).abs()).sum();
@@ -163,7 +164,7 @@ impl Style {
         Ok(garment)
     }
 
-    /// Traces paths on a mesh of the style. `None` for a path that leaves the cloth.
+    /// `None` for a path that leaves the cloth.
     pub fn laid(&self, garment: &Garment, paths: &[&[PathPart]]) -> Vec<Option<Vec<MaterialLine>>> {
         let samples = sample(self, garment.edge_length_m);
         let boundary: Vec<Vec<Vec<usize>>> = garment
@@ -210,8 +211,7 @@ impl Style {
     }
 }
 
-/// Garment vertices of every edge of a piece whose vertices begin at `first_vertex`. Boundary vertices come first. The
-/// last vertex of an edge is the first of the next.
+/// Garment vertices of every edge. Boundary vertices come first. The last vertex of an edge is the first of the next.
 fn boundary(first_vertex: usize, edges: &[EdgeSamples]) -> Vec<Vec<usize>> {
     let around: usize = edges.iter().map(|samples| samples.arcs.len() - 1).sum();
     let mut start = 0;
@@ -228,7 +228,6 @@ struct Assembly {
     pieces: Vec<PieceMesh>,
     rest: Vec<V2>,
     triangles: Vec<[usize; 3]>,
-    /// By piece and edge.
     boundary: Vec<Vec<Vec<usize>>>,
 }
 

@@ -7,9 +7,9 @@ use crate::style::{EdgePoint, EdgeRef, PathPart, Style};
 use geom::V2;
 use geom::polyline::segment_meeting;
 
-/// Distance below which points of a straight path coincide, as a share of its length.
+/// Distance below which points of a straight path coincide, over its length.
 const SAME_SHARE: f64 = 1e-6;
-/// Greatest distance between a drawn curve and the mesh boundary, which consists of chords, m.
+/// Greatest distance between a drawn curve and the mesh boundary, which consists of chords.
 const OFF_CURVE_M: f64 = 3e-3;
 
 struct Crossing {
@@ -18,6 +18,7 @@ struct Crossing {
     point: MaterialPoint,
 }
 
+/// Traces paths on the mesh of a style.
 pub struct Layer<'a> {
     style: &'a Style,
     samples: &'a [Vec<EdgeSamples>],
@@ -28,7 +29,7 @@ pub struct Layer<'a> {
 }
 
 impl<'a> Layer<'a> {
-    /// Makes a tracer. `samples` and `boundary` are the arc lengths and garment vertices of every edge of every piece.
+    /// `samples` and `boundary` are the arc lengths and garment vertices by piece and edge.
     pub fn new(
         style: &'a Style,
         samples: &'a [Vec<EdgeSamples>],
@@ -44,7 +45,6 @@ impl<'a> Layer<'a> {
         Self { style, samples, boundary, garment, triangle_of }
     }
 
-    /// `place` is the name of the path for messages.
     pub fn runs(&self, place: &str, path: &[PathPart]) -> Result<Vec<MaterialLine>, MeshError> {
         path.iter()
             .map(|part| match *part {
@@ -54,7 +54,7 @@ impl<'a> Layer<'a> {
             .collect()
     }
 
-    /// Line along an edge, from vertex to vertex, with the arc lengths of the drawn curve.
+    /// Line from vertex to vertex, with the arc lengths of the drawn curve.
     fn edge_run(&self, edge: EdgeRef) -> MaterialLine {
         let arcs = &self.samples[edge.piece][edge.edge].arcs;
         let vertices = &self.boundary[edge.piece][edge.edge];
@@ -69,9 +69,8 @@ impl<'a> Layer<'a> {
         MaterialPoint { vertices, weights: vertices.map(|v| if v == vertex { 1.0 } else { 0.0 }) }
     }
 
-    /// Lines of a path whose ends need not be vertices, so that they lie a little off the mesh. The lines end at the
-    /// boundary of the mesh and are scaled to the lengths on the pattern. `None` if a line leaves the cloth between its
-    /// ends.
+    /// Lines whose ends need not be vertices, and so lie a little off the mesh. They end at its boundary and are scaled
+    /// to the lengths on the pattern. `None` if a line leaves the cloth between its ends.
     pub fn near_runs(&self, path: &[PathPart]) -> Option<Vec<MaterialLine>> {
         let run = |part: &PathPart| match *part {
             PathPart::Edge(edge) => Some(self.edge_run(edge)),
@@ -118,7 +117,7 @@ impl<'a> Layer<'a> {
         crossings
     }
 
-    /// Straight line across a piece, divided where it crosses mesh edges.
+    /// Straight line, divided where it crosses mesh edges.
     fn line_run(&self, place: &str, ends: [EdgePoint; 2]) -> Result<MaterialLine, MeshError> {
         let piece = &self.garment.pieces[ends[0].edge.piece];
         let [from, to] = ends.map(|end| self.style.place(end));

@@ -5,9 +5,8 @@
 
 use crate::style::{EdgePoint, EdgeRef, PathPart, Seam, Style};
 
-/// Distance, in target edge lengths, below which marks of different sides of a seam become one vertex pair.
+/// Distance in target edge lengths below which marks of both sides of a seam become one vertex pair.
 const MERGE_SHARE: f64 = 0.25;
-/// In m.
 const SAME_M: f64 = 1e-9;
 
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -18,13 +17,11 @@ pub struct EdgeSamples {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Samples {
-    /// By piece and edge.
     pub edges: Vec<Vec<EdgeSamples>>,
-    /// Vertex pairs of each seam, in order along the seam.
+    /// In order along the seam.
     pub seams: Vec<Vec<[EdgeSample; 2]>>,
 }
 
-/// One vertex along an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct EdgeSample {
     pub edge: EdgeRef,
@@ -32,7 +29,7 @@ pub struct EdgeSample {
     pub index: usize,
 }
 
-/// Segments are about `h` long, m.
+/// Divides all edges into segments of about `h`, m.
 pub fn sample(style: &Style, h: f64) -> Samples {
     let marks = marks(style);
     let mut edges: Vec<Vec<EdgeSamples>> =
@@ -63,7 +60,7 @@ pub fn sample(style: &Style, h: f64) -> Samples {
     Samples { edges, seams }
 }
 
-/// Arc lengths, both ends included.
+/// Arc lengths at which each edge must have a vertex, both ends included.
 fn marks(style: &Style) -> Vec<Vec<Vec<f64>>> {
     let edge_marks = |line: &geom::polyline::Polyline, corners: &[f64]| {
         let mut marks = vec![0.0];
@@ -91,7 +88,6 @@ fn marks(style: &Style) -> Vec<Vec<Vec<f64>>> {
     marks
 }
 
-/// Divides evenly.
 fn divide(marks: &[f64], h: f64) -> Vec<f64> {
     let mut arcs = vec![marks[0]];
     for ends in marks.windows(2) {
@@ -105,12 +101,12 @@ fn parts(length: f64, h: f64) -> usize {
     ((length / h).round() as usize).max(1)
 }
 
-/// One side of a seam as one line: its edges end to end in walking order.
+/// Edges of one side of a seam, end to end in walking order.
 struct Side<'a> {
     style: &'a Style,
     chain: &'a [EdgeRef],
     is_forwards: bool,
-    /// Distance along the side of the start of each edge, then the length of the side, m.
+    /// Start of each edge along the side, then the length of the side, m.
     joints: Vec<f64>,
 }
 
@@ -129,7 +125,6 @@ impl<'a> Side<'a> {
         self.joints[self.joints.len() - 1]
     }
 
-    /// In m.
     fn marks(&self, marks: &[Vec<Vec<f64>>]) -> Vec<f64> {
         let on_edge = |(k, edge): (usize, &EdgeRef)| {
             let length = self.style.edge(*edge).line.length();
@@ -142,7 +137,7 @@ impl<'a> Side<'a> {
         all
     }
 
-    /// Points of the edge at the distance `middle`.
+    /// Points on the edge at the distance `middle` along the side.
     fn on_edge(&self, middle: f64, distances: &[f64]) -> Vec<EdgePoint> {
         let k = self.joints.partition_point(|&joint| joint <= middle).clamp(1, self.chain.len()) - 1;
         let edge = self.chain[k];
@@ -155,8 +150,7 @@ impl<'a> Side<'a> {
     }
 }
 
-/// Position at which both sides of a seam must have a vertex: the distance along each, and true for a side of which it
-/// is a mark.
+/// Position at which both sides of a seam must have a vertex: distance along each, and true for a side that marks it.
 #[derive(Clone, Copy)]
 struct Mark {
     on: [f64; 2],
@@ -189,7 +183,7 @@ fn is_same(p: EdgePoint, q: EdgePoint) -> bool {
     p.edge == q.edge && (p.arc_m - q.arc_m).abs() < SAME_M
 }
 
-/// Marks of both sides, in order. Marks of different sides that nearly coincide become one.
+/// In order. Marks of different sides that nearly coincide become one.
 fn common_marks(sides: &[Side<'_>; 2], marks: &[Vec<Vec<f64>>], h: f64) -> Vec<Mark> {
     let ratio = sides[1].length() / sides[0].length();
     let of_a = sides[0].marks(marks).into_iter().map(|s| Mark { on: [s, s * ratio], is_of: [true, false] });

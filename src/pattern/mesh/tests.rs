@@ -8,7 +8,6 @@ fn style(size: TshirtSize) -> Style {
     Style::read(&tshirt(size).pieces, TSHIRT_SEAMS, "tshirt.seams.toml").expect("the drafted style is whole")
 }
 
-/// All sizes at coarse and working edge lengths.
 fn garments() -> impl Iterator<Item = (Style, Garment)> {
     let lengths = [0.012, 0.020, 0.040];
     TshirtSize::ALL

@@ -11,15 +11,13 @@ use super::sides::{DRAWN_M, Side, on_sides};
 use super::{Entity, Redraw, Spot, spots};
 use crate::dxf::units::Unit;
 
-/// Distance below which a point counts as at a vertex.
 const AT_VERTEX_M: f64 = 0.5e-3;
 /// Turning angle from which a curve point is a corner: 30 degrees.
 const CORNER_RAD: f64 = 0.52;
 /// Ratio of neighbouring sides below which the longer one is no part of a curve.
 const SHORTER: f64 = 0.25;
-/// Distance below which a point has not moved.
 const STILL_M: f64 = 1e-6;
-/// Flag of a polyline [DXF reference, POLYLINE, VERTEX].
+/// Flags of a polyline and of its vertices [DXF reference, POLYLINE, VERTEX].
 const CLOSED: i32 = 1;
 const FRAME_OF_SPLINE: i32 = 16;
 /// Group codes of an LWPOLYLINE vertex after its x: y, widths, bulge, identifier.
@@ -224,7 +222,6 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
         [(from, before), (to, after)].into_iter().any(|(at, beside)| is_marked(at) && is_bent(at, beside))
     }
 
-    /// Adds vertices to a polyline after `vertex`.
     fn divide(&mut self, chain: &Chain, vertex: usize, between: &[V2]) {
         let (spot, range) = (chain.spots[vertex], chain.ranges[vertex].clone());
         for point in between {
@@ -317,7 +314,6 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
         }
     }
 
-    /// Rounded as the file rounds.
     fn shift_of_middle(&self, entity: &Entity<'_>) -> V2 {
         let chain = self.chain(entity);
         let (Some(first), Some(last)) = (chain.spots.first(), chain.spots.last()) else { return V2::zeros() };
@@ -338,7 +334,6 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
         }
     }
 
-    /// Changes what is no outline.
     fn other(&mut self, entity: &Entity<'_>) {
         let is_notch = NOTCHES.contains(&entity.layer);
         match entity.kind {

@@ -22,11 +22,9 @@ use crate::piece::Piece;
 
 /// Greatest difference between two changes of a block.
 const ALIKE_M: f64 = 0.05e-3;
-/// Distance below which a point counts as inside an outline.
 const NEAR_M: f64 = 1e-3;
 
 pub struct Redraw<'a> {
-    /// As read from the file to sew.
     pub piece: &'a Piece,
     /// Place of a point after the change, in metres, as the file draws the piece.
     pub carried: &'a dyn Fn(V2) -> V2,
@@ -61,7 +59,6 @@ pub fn patched(bytes: &[u8], file_name: &str, unit: Option<Unit>, redraws: &[Red
     Ok(Patched { bytes: sheet.bytes(), departs_m })
 }
 
-/// True for the same drawing of the file.
 fn is_same(piece: &Piece, other: &Piece) -> bool {
     match (piece.beside.line, other.beside.line) {
         (Some(line), Some(of_other)) => line == of_other,
@@ -95,7 +92,6 @@ pub(super) struct Entity<'a> {
     /// Tags of its first record.
     head: Range<usize>,
     vertices: Vec<Range<usize>>,
-    /// Last tag of its last record.
     last: usize,
 }
 
@@ -120,7 +116,6 @@ impl Entity<'_> {
 struct Spot {
     /// Index of the tag.
     x: usize,
-    /// Index of the tag.
     y: usize,
     /// In the unit of the file.
     at: V2,

@@ -10,7 +10,6 @@ const STEP_M: f64 = 5e-3;
 const MOST_STEPS: f64 = 200.0;
 /// Distance below which a point counts as on a side: the rounding of files.
 const ON_SIDE_M: f64 = 0.05e-3;
-/// Halvings by which the points of a side are spread evenly.
 const HALVINGS: usize = 12;
 
 /// Side that is straight before the change.
@@ -19,7 +18,6 @@ pub struct Side {
     ends: [V2; 2],
     /// Points after the change with both ends, each with its share of the side before.
     pub drawn: Vec<(f64, V2)>,
-    /// Greatest distance from the line that it is carried to.
     pub departs_m: f64,
 }
 
@@ -37,7 +35,6 @@ impl Side {
         Self { ends, drawn, departs_m }
     }
 
-    /// True for the same ends in either order.
     pub fn is_drawn_again_by(&self, other: &Self) -> bool {
         let are_near = |[a, b]: [V2; 2]| (self.ends[0] - a).norm().max((self.ends[1] - b).norm()) < ON_SIDE_M;
         are_near(other.ends) || are_near([other.ends[1], other.ends[0]])

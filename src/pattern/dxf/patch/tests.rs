@@ -48,7 +48,6 @@ fn half_front(size: &str, wider: f64) -> String {
     parts.concat()
 }
 
-/// Two sizes with texts in the head, in a code page of its own.
 fn nest() -> Vec<u8> {
     let texts = [
         "Style Name: TEE",
@@ -165,7 +164,6 @@ fn a_block_does_not_change_in_two_ways() {
     assert!(told.contains("block `FRONT-S`: found two changes, 1.00 mm apart"), "{told}");
 }
 
-/// The arc of a circle goes through where its middle goes.
 #[test]
 fn arcs_bulges_and_lines_change() {
     let file = |boundary: &str| {
@@ -200,7 +198,6 @@ fn arcs_bulges_and_lines_change() {
     check(lines, 0);
 }
 
-/// A T-shirt in inches, the grain along x, the front half of it on the fold, two sizes in a file.
 fn turned_tee() -> Vec<u8> {
     let half = |piece: Piece| {
         let on_left = |points: &[V2]| -> Vec<V2> { points.iter().copied().filter(|p| p.x > -1e-9).collect() };

@@ -41,7 +41,6 @@ const DIGIT_M: f64 = 1e-5;
 const SEAM_M: f64 = 0.5e-3;
 /// Change above which a size is corrected: below it, rules stay even.
 const CLOSE_M: f64 = 0.4e-3;
-/// Limit for each size.
 const CORRECTIONS: usize = 4;
 /// Weight of a point of front, back or leg in a correction: a sleeve is fitted to its armhole, and a band to its waist.
 const TRUNK: f64 = 0.5;
@@ -58,14 +57,12 @@ const ONE_PLACE_M: f64 = 40e-3;
 
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum GrowthError {
-    /// The pattern cannot be changed, or is no style to begin with.
     #[error(transparent)]
     Handle(#[from] HandleError),
     #[error(transparent)]
     Style(#[from] StyleError),
     #[error("piece `{piece}`: {found}; accepted: sizes nearer to the sample size")]
     Piece { piece: String, found: String },
-    /// The sides come apart in a size.
     #[error(
         "seam `{seam}`: its sides come apart by {off_mm:.1} mm when {by}; accepted: {within_mm} mm, besides what ease and gathers grow by"
     )]
@@ -75,7 +72,6 @@ pub enum GrowthError {
         off_mm: f64,
         /// Handles with their amounts.
         by: String,
-        /// Accepted change.
         within_mm: f64,
     },
 }
@@ -109,7 +105,6 @@ pub struct Growth {
 struct Levers {
     /// Point and axis.
     columns: Vec<(usize, usize)>,
-    /// By column.
     weights: Vec<f64>,
     /// Change by seam and then column, m/m, times the weight.
     rows: Vec<Vec<f64>>,
@@ -161,12 +156,10 @@ impl Growth {
         &self.style
     }
 
-    /// Those that move, in their order.
     pub fn handles(&self) -> impl Iterator<Item = Handle> + '_ {
         self.fields.iter().map(|(handle, _)| *handle)
     }
 
-    /// Handles that the pattern has and that cannot move.
     pub fn refused(&self) -> &[(Handle, HandleError)] {
         &self.refused
     }
@@ -235,7 +228,6 @@ impl Growth {
         Ok(())
     }
 
-    /// Corners that the seam file refers to by their places, by piece identifier.
     fn corners_of_seams(&self) -> BTreeMap<String, Vec<Cardinal>> {
         let mut corners = BTreeMap::new();
         for (name, entry) in self.loose.piece.iter().filter(|(_, entry)| !entry.corners_at.is_empty()) {
@@ -249,7 +241,6 @@ impl Growth {
         corners
     }
 
-    /// Piece and vertices of some corners.
     fn vertices(&self, corners: &[Cardinal]) -> Option<(usize, Vec<usize>)> {
         let piece = corners.first()?.piece;
         let outline = self.pieces[piece].seam_outline();
@@ -260,7 +251,6 @@ impl Growth {
         Some((piece, corners.iter().map(nearest).collect()))
     }
 
-    /// Places of the corners on displaced pieces, by piece identifier.
     fn places(&self, pieces: &[Piece]) -> BTreeMap<String, Vec<[f64; 2]>> {
         let of_piece = |(name, (piece, vertices)): (&String, &(usize, Vec<usize>))| {
             (name.clone(), shares(pieces[*piece].seam_outline(), vertices))
@@ -346,7 +336,6 @@ impl Growth {
         Ok(levers)
     }
 
-    /// Pieces of front, back and legs.
     fn trunk(&self) -> Vec<usize> {
         let is_trunk =
             |role: Role| !matches!(role, Role::SleeveLeft | Role::SleeveRight | Role::Waistband | Role::Other);
@@ -390,7 +379,6 @@ impl Growth {
         Ok(())
     }
 
-    /// Displaces notches as the outline beside them.
     fn follow(&self, field: &mut [V2]) {
         let rules = field.iter().enumerate().map(|(k, step)| (k as u32 + 1, vec![*step])).collect();
         let table = self.table(rules, 0);
@@ -443,7 +431,7 @@ impl Growth {
         }
     }
 
-    /// Amounts are in m. Fails where a piece cannot be graded so far or a seam comes apart.
+    /// Amounts are in m.
     pub fn sized(&self, amounts: &[(Handle, f64)]) -> Result<Style, GrowthError> {
         Ok(self.steps(amounts)?.1)
     }
@@ -480,20 +468,17 @@ impl Growth {
     }
 }
 
-/// Numbers grade points by piece.
 struct Places {
     taken: Vec<usize>,
 }
 
 impl Places {
-    /// Piece and number.
     fn next(&mut self, piece: usize) -> [usize; 2] {
         self.taken[piece] += 1;
         [piece, self.taken[piece] - 1]
     }
 }
 
-/// Both sides of every seam.
 fn lengths_m(style: &Style) -> Vec<[f64; 2]> {
     let length = |side: &[EdgeRef]| side.iter().map(|edge| style.edge(*edge).line.length()).sum();
     style.seams.iter().map(|seam| [length(&seam.a), length(&seam.b)]).collect()

@@ -13,12 +13,10 @@ use toml_edit::{DocumentMut, InlineTable, Value, value};
 /// Sizes of a pattern as the sample size and its rules.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Graded {
-    /// Sample size with grade points.
     pub pieces: Vec<Piece>,
     pub table: GradeTable,
     /// Bytes of the seam file, with the ease of each size.
     pub seams: Vec<u8>,
-    /// One for each size.
     pub styles: Vec<Style>,
 }
 
