@@ -300,7 +300,7 @@ fn a_failed_check_ends_with_3() {
 fn a_failed_job_ends_with_4() {
     let place = Place::new();
     place.study(&[("tee", 0.1, &["m"])]);
-    let text = std::fs::read_to_string(place.path("study.toml")).expect("written");
+    let text = place.study_file();
     // Girths that a person can have, but not one person: found when the body is made.
     let text = text.replace("chest_girth_mm = 863", "chest_girth_mm = 600").replace("= 782", "= 1500");
     place.write("study.toml", text.replace("hip_girth_mm = 914", "hip_girth_mm = 650"));
