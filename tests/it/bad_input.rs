@@ -113,9 +113,9 @@ fn refused_pieces_stand_beside_good_ones() {
 #[test]
 fn every_problem_of_a_study_file_is_told_with_its_line() {
     let place = place();
-    let text = std::fs::read_to_string(place.path("study.toml")).expect("written");
+    let text = place.study_file();
     let before = database(&place);
-    let text = text.replace("edge_length_mm = 40", "edge_length_mm = \"fine\"").replace("stature_mm", "stature_cm");
+    let text = text.replace("edge_length_mm = 60", "edge_length_mm = \"fine\"").replace("stature_mm", "stature_cm");
     place.write("study.toml", &text);
     let said = place.toile("run .").ends_with(2);
     let line_of = |word: &str| text.lines().position(|line| line.contains(word)).expect("it is there") + 1;

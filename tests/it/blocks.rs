@@ -219,7 +219,7 @@ fn the_recipe_for_a_pattern_of_ones_own_works() {
         if command.contains("study new") {
             // Coarse cloth comes to rest sooner.
             let study = text(&place.path("mine/study.toml"));
-            place.write("mine/study.toml", study.replace("edge_length_mm = 15 ", "edge_length_mm = 40 "));
+            place.write("mine/study.toml", study.replace("edge_length_mm = 15 ", "edge_length_mm = 60 "));
         }
     }
     assert!(place.path("reports/mine/index.html").is_file());

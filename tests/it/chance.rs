@@ -93,7 +93,7 @@ fn drapes_say_what_cloth_and_start_leave_open() {
     let place = Place::new();
     place.study(&[("a", 0.12, &["m"])]);
     // A class of the library, whose cloths differ.
-    let text = std::fs::read_to_string(place.path("study.toml")).expect("it is written");
+    let text = place.study_file();
     place.write("study.toml", text.replace("fabric = \"poplin_a\"", "fabric = \"poplin\""));
     let found = place.toile("chance . --draws 20 --fem 1 --json").ends_with(0).json();
     let drape = &found["drape"];

@@ -6,7 +6,7 @@ use crate::program::Place;
 fn what_one_round_asked_is_met_in_the_next_once_the_pattern_is_altered() {
     let place = Place::new();
     place.study(&[("tee", 0.1, &["s"])]);
-    let text = std::fs::read_to_string(place.path("study.toml")).expect("just written");
+    let text = place.study_file();
     let aimed = text.replace("name = \"tee\"\n", "name = \"tee\"\ntarget_ease_mm = { chest = [155, 170] }\n");
     place.write("study.toml", &aimed);
     let first = place.toile("comment round . --json").ends_with(0).json();

@@ -161,7 +161,7 @@ fn headings_have_anchors() {
 const SCREEN: [usize; 2] = [50, 100];
 
 /// Every command by the words that call it.
-fn calls(command: &clap::Command, before: &[String]) -> Vec<Vec<String>> {
+pub fn calls(command: &clap::Command, before: &[String]) -> Vec<Vec<String>> {
     let words = [before, &[command.get_name().to_owned()]].concat();
     let below = command.get_subcommands().flat_map(|of| calls(of, &words)).collect::<Vec<_>>();
     [vec![words], below].concat()

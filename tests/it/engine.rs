@@ -6,10 +6,7 @@ use super::program::Place;
 /// A coarse T-shirt on one man by Hybrid-GS, with more lines at the end of its study file.
 fn place(more: &str) -> Place {
     let place = Place::new();
-    place.study(&[("tee", 0.1, &["m"])]);
-    let text = std::fs::read_to_string(place.path("study.toml")).expect("written");
-    let head = "simulators = [\"hybrid\"]\nedge_length_mm = 60";
-    place.write("study.toml", text.replace("edge_length_mm = 40", head) + more);
+    place.hybrid_study("", &[("tee", 0.1, &["m"])], more);
     place
 }
 
@@ -48,7 +45,7 @@ fn a_sweep_is_run_and_its_runs_are_shown_compared_and_made_again() {
 #[test]
 fn jobs_as_files_give_the_same_bits_as_a_run_here() {
     let here = place("");
-    let text = std::fs::read_to_string(here.path("study.toml")).expect("written");
+    let text = here.study_file();
     let text = text.replace("name = \"coarse\"", "name = \"coarse\"\nrepeats = 2");
     here.write("study.toml", &text);
     here.toile("run . --workers 1 --no-report").ends_with(0);
@@ -84,7 +81,7 @@ fn without_ease(place: &Place) -> Vec<Vec<Vec<rusqlite::types::Value>>> {
 #[test]
 fn a_job_that_fails_elsewhere_is_failed_here_and_can_be_had_again() {
     let place = place("");
-    let text = std::fs::read_to_string(place.path("study.toml")).expect("written");
+    let text = place.study_file();
     let text = text.replace("chest_girth_mm = 863", "chest_girth_mm = 600").replace("= 782", "= 1500");
     place.write("study.toml", text.replace("hip_girth_mm = 914", "hip_girth_mm = 650"));
     let file = place.toile("job handout . -o jobs").ends_with(0).out;
@@ -120,7 +117,7 @@ fn a_style_of_the_catalogue_is_sewn_and_exported_with_its_files() {
     let place = place("");
     place.toile("style add shirt --seams patterns/tshirt.seams.toml --pattern S=patterns/tshirt-s.dxf M=patterns/tshirt-m.dxf")
         .ends_with(0);
-    let text = std::fs::read_to_string(place.path("study.toml")).expect("written");
+    let text = place.study_file();
     let start = text.find("seams = ").expect("it names them");
     let end = text.find("fabric = ").expect("after the seams");
     let named = format!("{}style = \"shirt\"\n{}", &text[..start], &text[end..]);
@@ -145,7 +142,7 @@ fn a_population_stands_for_somebody_new() {
     let place = place("");
     let people = place.toile("study population --bodies 2 --sex m --people 200").ends_with(0).out;
     assert_eq!(people.matches("[[subject]]").count(), 2, "{people}");
-    let text = std::fs::read_to_string(place.path("study.toml")).expect("written");
+    let text = place.study_file();
     let (start, end) = (text.find("[[subject]]").expect("one"), text.find("[[garment]]").expect("one"));
     place.write("study.toml", format!("{}{people}{}", &text[..start], &text[end..]));
     place.toile("run . --no-report --quiet").ends_with(0);

@@ -4,16 +4,15 @@ use super::program::Place;
 
 #[test]
 fn an_outfit_is_draped_as_a_whole_and_each_layer_has_its_result() {
-    let place = Place::new();
-    place.study(&[("under", 0.1, &["m"]), ("over", 0.2, &["l"])]);
-    let study = std::fs::read_to_string(place.path("study.toml")).expect("it was written");
-    let outfit = "\n[[outfit]]\nname = \"two\"\nlayers = [\"under\", \"over\"]\nsizes = [\"m\", \"l\"]\n";
-    place.write("study.toml", format!("{study}{outfit}"));
+    let place = Place::draped();
+    let outfit = "\n[[outfit]]\nname = \"two\"\nlayers = [\"light\", \"heavy\"]\nsizes = [\"m\", \"l\"]\n";
+    let study = place.study_file() + outfit;
+    place.write("study.toml", &study);
 
     let run = place.toile("run . --workers 2 --no-report").ends_with(0);
-    assert!(run.err.contains("4 jobs, 4 to run"), "{}", run.err);
+    assert!(run.err.contains("4 jobs, 2 to run"), "{}", run.err);
     let layers = "SELECT group_concat(layer || ' ' || garment || ' ' || size, '; ') FROM (SELECT * FROM v_outfit ORDER BY layer)";
-    assert_eq!(place.one(layers), "1 two under m; 2 two over l");
+    assert_eq!(place.one(layers), "1 two light m; 2 two heavy l");
     let faults = "SELECT count(*) FROM v_metrics WHERE NOT converged OR self_crossings > 0 OR penetration_max_mm > 0.5";
     assert_eq!(place.one(faults), "0");
     // Over the inner one a tape reads more than on the skin.
@@ -21,12 +20,12 @@ fn an_outfit_is_draped_as_a_whole_and_each_layer_has_its_result() {
         let of = format!("SELECT body_girth_mm FROM v_ease WHERE garment = '{garment}' AND level = 'chest'");
         place.one(&of).parse().expect("a number")
     };
-    assert!(girth("two over") > girth("over") + 3.0, "{} and {}", girth("two over"), girth("over"));
-    assert_eq!(girth("two under"), girth("under"));
+    assert!(girth("two heavy") > girth("heavy") + 3.0, "{} and {}", girth("two heavy"), girth("heavy"));
+    assert_eq!(girth("two light"), girth("light"));
 
     // The picture of the outer layer shows the inner one too.
     let job = place.one("SELECT job_id FROM v_outfit WHERE layer = 2");
-    let alone = place.one("SELECT job_id FROM v_jobs WHERE garment = 'over'");
+    let alone = place.one("SELECT job_id FROM v_jobs WHERE garment = 'heavy'");
     let drawn = |job: &str| {
         place.toile(&format!("render {job} --map gap --width 60 --height 80 -o p.png")).ends_with(0);
         std::fs::read(place.path("p.png")).expect("it is there")
@@ -34,8 +33,8 @@ fn an_outfit_is_draped_as_a_whole_and_each_layer_has_its_result() {
     assert_ne!(drawn(&job), drawn(&alone));
 
     // Nothing is draped twice, and what changes a layer changes the others.
-    assert!(place.toile("run . --why").ends_with(0).err.contains("4 jobs, 0 to run"));
-    let thicker = format!("{study}{outfit}").replace("density_kg_m2 = 0.2", "density_kg_m2 = 0.25");
+    assert!(place.toile("run . --why --no-report").ends_with(0).err.contains("4 jobs, 0 to run"));
+    let thicker = study.replace("density_kg_m2 = 0.2", "density_kg_m2 = 0.25");
     place.write("study.toml", thicker);
     let dry = place.toile("run . --dry-run").ends_with(0);
     assert_eq!(dry.out.matches("up to date").count(), 1, "{}", dry.out);
@@ -44,10 +43,10 @@ fn an_outfit_is_draped_as_a_whole_and_each_layer_has_its_result() {
 #[test]
 fn several_patterns_are_tried_on_over_each_other() {
     let place = Place::new();
-    place.study(&[("under", 0.1, &["m"])]);
+    place.draft();
     place.write("ii.toml", "sex = \"male\"\nstature_mm = 1690\nchest_girth_mm = 863\n");
     let shirt = |size: &str| format!("--pattern patterns/tshirt-{size}.dxf --seams patterns/tshirt.seams.toml");
-    let both = format!("--edge-mm 40 {} {} -o worn", shirt("m"), shirt("l"));
+    let both = format!("--edge-mm 60 {} {} -o worn", shirt("m"), shirt("l"));
     let tried = place.toile(&format!("try --body ii.toml {both} --json")).ends_with(0);
     let layers: serde_json::Value = serde_json::from_str(&tried.out).expect("JSON");
     let sizes: Vec<&str> = layers.as_array().expect("a list").iter().filter_map(|one| one["size"].as_str()).collect();

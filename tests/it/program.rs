@@ -1,7 +1,9 @@
 //! The real program in a folder of its own.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::OnceLock;
 use std::time::Duration;
 
 use serde_json::Value;
@@ -90,6 +92,11 @@ impl Place {
         rows[0].clone()
     }
 
+    /// The study file.
+    pub fn study_file(&self) -> String {
+        std::fs::read_to_string(self.path("study.toml")).expect("it is written")
+    }
+
     /// Writes the drafted T-shirt below `patterns/`.
     pub fn draft(&self) {
         self.toile("pattern draft -o patterns").ends_with(0);
@@ -100,6 +107,68 @@ impl Place {
         self.draft();
         self.write("study.toml", study(garments));
     }
+
+    /// As `study`, by Hybrid-GS, with more lines at the head and at the end of the study file.
+    pub fn hybrid_study(&self, head: &str, garments: &[Tee], end: &str) {
+        self.draft();
+        self.write("study.toml", format!("simulators = [\"hybrid\"]\n{head}\n{}{end}", study(garments)));
+    }
+
+    /// A place with the study of two T-shirts that [`draped`] has run.
+    pub fn draped() -> Self {
+        draped().copy()
+    }
+}
+
+/// A place as commands left it. They run once for all tests, and each test has a copy of its own.
+pub struct Kept {
+    files: Vec<(String, Vec<u8>)>,
+    /// What the last command said.
+    pub said: Said,
+}
+
+impl Kept {
+    pub fn of(place: &Place, said: Said) -> Self {
+        let read = |name: String| {
+            let bytes = std::fs::read(place.path(&name)).expect("readable");
+            (name, bytes)
+        };
+        Self { files: files(place.folder.path()).into_iter().map(read).collect(), said }
+    }
+
+    pub fn copy(&self) -> Place {
+        let place = Place::new();
+        self.files.iter().for_each(|(name, bytes)| place.write(name, bytes));
+        place
+    }
+}
+
+/// All files below a folder by their paths from there.
+pub fn files(folder: &Path) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for entry in std::fs::read_dir(folder).expect("a folder").flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if entry.path().is_dir() {
+            found.extend(files(&entry.path()).into_iter().map(|file| format!("{name}/{file}")));
+        } else {
+            found.insert(name);
+        }
+    }
+    found
+}
+
+/// The T-shirts that [`draped`] has.
+pub const DRAPED: [Tee; 2] = [("light", 0.1, &["m"]), ("heavy", 0.2, &["l"])];
+
+/// A study of two T-shirts, draped by FEM-GS with one worker, and its report.
+pub fn draped() -> &'static Kept {
+    static KEPT: OnceLock<Kept> = OnceLock::new();
+    KEPT.get_or_init(|| {
+        let place = Place::new();
+        place.study(&DRAPED);
+        let said = place.toile("run . --workers 1").ends_with(0);
+        Kept::of(&place, said)
+    })
 }
 
 /// A T-shirt of the study: its name, the density of its cloth in kg/m2, and its sizes.
@@ -109,7 +178,7 @@ pub type Tee<'a> = (&'a str, f64, &'a [&'a str]);
 fn study(garments: &[Tee]) -> String {
     let mut text = r#"
 name = "coarse"
-edge_length_mm = 40
+edge_length_mm = 60
 
 [[subject]]
 id = "ii"

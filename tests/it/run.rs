@@ -1,10 +1,9 @@
 //! Studies through the real program: results, cache, crashes, workers, report.
 
 use std::process::Stdio;
-use std::time::{Duration, Instant};
 
 use super::fit_report;
-use super::program::Place;
+use super::program::{DRAPED, Place, draped};
 use super::report::numbers_are_those_of_the_views;
 
 /// Contract columns of the views.
@@ -36,41 +35,21 @@ const VIEWS: [(&str, &str); 8] = [
     ("v_provenance", "job_id input_hash program_version git_commit git_dirty machine seed"),
 ];
 
-/// Two T-shirts that differ in cloth only.
-fn two_cloths(place: &Place, light: f64) {
-    place.study(&[("light", light, &["m"]), ("heavy", 0.2, &["m"])]);
+#[test]
+fn a_study_is_run_and_its_results_keep_the_contract() {
+    let said = &draped().said;
+    assert!(said.out.contains("light m, fem: chi = L3D / L2D") && said.out.contains("Neck Opening"), "{}", said.out);
+    assert!(said.err.contains("2 jobs, 2 to run, 0 up to date"), "{}", said.err);
+    results_keep_the_contract(&Place::draped());
 }
 
-const LENGTHS: &str = "SELECT garment, size, measurement_no, l3d_mm FROM v_chi ORDER BY 1, 2, 3";
-
 #[test]
-fn a_study_is_run_cached_changed_and_reported() {
-    let place = Place::new();
-    two_cloths(&place, 0.1);
-    let first = place.toile("run . --workers 1").ends_with(0);
-    assert!(first.out.contains("light m, fem: chi = L3D / L2D") && first.out.contains("Neck Opening"), "{}", first.out);
-    assert!(first.err.contains("2 jobs, 2 to run, 0 up to date"), "{}", first.err);
-    results_keep_the_contract(&place);
-    report_is_self_contained(&place, &first.out);
-    a_size_is_advised(&place);
-    sections_are_cut(&place);
-    pictures_are_made_to_order(&place);
-
-    let lengths = place.sql(LENGTHS);
-    let finished = "SELECT job_id, attempts, started_at, finished_at FROM v_jobs ORDER BY 1";
-    let before = place.sql(finished);
-    let second = place.toile("run . --why").ends_with(0);
-    assert!(second.err.contains("2 jobs, 0 to run, 2 up to date"), "{}", second.err);
-    assert!(second.err.contains("light m ii fem: up to date (done)"), "{}", second.err);
-    assert_eq!(place.sql(finished), before, "nothing is computed again");
-    assert_eq!(second.out, first.out);
-
-    a_changed_number_recomputes_its_drape(&place);
-
+fn two_workers_give_the_same_bits_as_one() {
+    let lengths = |place: &Place| place.sql("SELECT garment, size, measurement_no, l3d_mm FROM v_chi ORDER BY 1, 2, 3");
     let other = Place::new();
-    two_cloths(&other, 0.1);
+    other.study(&DRAPED);
     other.toile("run . --workers 2 --no-report").ends_with(0);
-    assert_eq!(other.sql(LENGTHS), lengths, "two workers, bit by bit");
+    assert_eq!(lengths(&other), lengths(&Place::draped()));
 }
 
 /// Every view has its columns, and the results are numbers that can be.
@@ -93,8 +72,10 @@ fn results_keep_the_contract(place: &Place) {
 }
 
 /// The report stands alone: pictures in it, no script, nothing loaded.
-fn report_is_self_contained(place: &Place, out: &str) {
-    let path = out.lines().find_map(|line| line.strip_prefix("report: ")).expect("the report's path");
+#[test]
+fn the_report_is_self_contained_and_has_the_numbers_of_the_views() {
+    let place = &Place::draped();
+    let path = draped().said.out.lines().find_map(|line| line.strip_prefix("report: ")).expect("the report's path");
     // Of one simulator the report opens with the fit; the comparison lies beside it.
     let path = &path.replace("index.html", "compare.html");
     let page = std::fs::read_to_string(place.path(path)).expect("the page is there");
@@ -111,7 +92,9 @@ fn report_is_self_contained(place: &Place, out: &str) {
 }
 
 /// The one size there is, and how it sits at every level that it covers; nobody else's.
-fn a_size_is_advised(place: &Place) {
+#[test]
+fn a_size_is_advised() {
+    let place = Place::draped();
     let cards = place.toile("fit . --subject ii --json").ends_with(0).json();
     let cards = cards.as_array().expect("cards");
     assert!(!cards.is_empty() && cards.iter().all(|card| card["subject"] == "ii"), "{cards:?}");
@@ -128,7 +111,9 @@ fn a_size_is_advised(place: &Place) {
 }
 
 /// One result or several, from any side, in any cloth; what cannot be drawn says why.
-fn pictures_are_made_to_order(place: &Place) {
+#[test]
+fn pictures_are_made_to_order() {
+    let place = Place::draped();
     let stripes = image::RgbImage::from_fn(8, 4, |x, _| image::Rgb(if x < 4 { [200, 30, 30] } else { [230, 60, 60] }));
     stripes.save(place.path("stripes.png")).expect("a folder to write to");
     let drawn = |arguments: &str| {
@@ -165,9 +150,24 @@ fn pictures_are_made_to_order(place: &Place) {
     refused("99", "no job `99`");
 }
 
+#[test]
+fn a_second_run_computes_nothing() {
+    let place = Place::draped();
+    let finished = "SELECT job_id, attempts, started_at, finished_at FROM v_jobs ORDER BY 1";
+    let before = place.sql(finished);
+    let second = place.toile("run . --why").ends_with(0);
+    assert!(second.err.contains("2 jobs, 0 to run, 2 up to date"), "{}", second.err);
+    assert!(second.err.contains("light m ii fem: up to date (done)"), "{}", second.err);
+    assert_eq!(place.sql(finished), before, "nothing is computed again");
+    assert_eq!(second.out, draped().said.out);
+}
+
 /// One number of one cloth: its garment is draped anew from the old body, field and mesh; the other is left alone.
-fn a_changed_number_recomputes_its_drape(place: &Place) {
-    two_cloths(place, 0.12);
+#[test]
+fn a_changed_number_recomputes_its_drape() {
+    let place = Place::draped();
+    let study = place.study_file();
+    place.write("study.toml", study.replace("density_kg_m2 = 0.1\n", "density_kg_m2 = 0.12\n"));
     let named = "fabric.poplin_light.density_kg_m2: 0.1 -> 0.12";
     let jobs = place.one("SELECT count(*) FROM v_jobs");
     let planned = place.toile("run . --dry-run --json").ends_with(0).json();
@@ -187,9 +187,9 @@ fn a_changed_number_recomputes_its_drape(place: &Place) {
     assert!(seconds(0) <= 0.0 && seconds(1).abs() < 1.0, "queued, then started: {lines}");
     let log = place.toile("queue log 3").ends_with(0).out;
     assert!(log.contains("body from the cache, field from the cache, mesh from the cache, drape made"), "{log}");
-    assert_eq!(place.one("SELECT group_concat(kind, ' ') FROM artefact WHERE kind <> 'drape'").matches(' ').count(), 2);
+    assert_eq!(place.one("SELECT count(*) FROM artefact WHERE kind <> 'drape'"), "4", "body, field, two meshes");
 
-    two_cloths(place, 0.1);
+    place.write("study.toml", study);
     let back = place.toile("run . --no-report").ends_with(0);
     assert!(back.err.contains("2 jobs, 0 to run, 2 up to date"), "old results are kept: {}", back.err);
 }
@@ -197,11 +197,9 @@ fn a_changed_number_recomputes_its_drape(place: &Place) {
 #[test]
 fn a_quiet_run_of_a_paused_study_says_that_it_waits_and_a_run_tells_its_end() {
     let place = Place::new();
-    place.study(&[("tee", 0.1, &["s"])]);
-    place.toile("run . --no-report --detach").ends_with(0);
+    place.hybrid_study("", &[("tee", 0.1, &["s"])], "");
+    place.toile("job handout . -o jobs").ends_with(0);
     place.toile("queue pause coarse").ends_with(0);
-    place.toile("queue cancel --study coarse").ends_with(0);
-    place.toile("queue retry --study coarse").ends_with(0);
     let mut command = place.command("run . --no-report --quiet");
     let mut run = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("it starts");
     let mut told = String::new();
@@ -247,43 +245,10 @@ fn a_file_is_studied_twice_and_bare_names_are_those_of_the_project() {
     assert!(told.err.contains("jobs of") && told.err.contains("`toile queue cancel --study"), "{}", told.err);
 }
 
-#[test]
-fn a_killed_run_goes_on_where_it_stopped() {
-    let place = Place::new();
-    place.study(&[("tee", 0.1, &["s", "m", "l"])]);
-    let mut command = place.command("run . --workers 1 --no-report");
-    let mut run = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts");
-    let state = "SELECT status || ' ' || attempts FROM v_jobs ORDER BY job_id";
-    let end = Instant::now() + Duration::from_secs(300);
-    // The study's first moments come before there is a job to see.
-    while !place.path("toile.sqlite").exists() || place.sql(state) != ["done 1", "running 1", "queued 0"] {
-        assert!(Instant::now() < end && run.try_wait().expect("ours").is_none(), "{:?}", place.sql(state));
-        std::thread::sleep(Duration::from_millis(50));
-    }
-    run.kill().expect("SIGKILL");
-    run.wait().expect("ours");
-    let told = place.toile("queue ls").ends_with(0);
-    assert!(told.err.contains("a run was interrupted: 1 of its jobs wait in the queue again"), "{}", told.err);
-    assert!(told.out.contains("ended before the job did") && !told.out.contains("running"), "{}", told.out);
-    assert_eq!(place.sql(state), ["done 1", "queued 1", "queued 0"], "killed in the middle");
-    let first = "SELECT * FROM v_jobs WHERE job_id = 1";
-    let before = place.one(first);
-    let chi = place.sql("SELECT * FROM v_chi ORDER BY job_id, measurement_no");
-    assert_eq!(chi.len(), 9);
-
-    let again = place.toile("run . --workers 1 --no-report --why").ends_with(0);
-    assert!(again.err.contains("3 jobs, 2 to run, 1 up to date"), "{}", again.err);
-    assert_eq!(place.sql(state), ["done 1", "done 2", "done 1"]);
-    assert_eq!(place.one(first), before, "the finished result is as it was");
-    assert_eq!(place.sql("SELECT * FROM v_chi WHERE job_id = 1 ORDER BY measurement_no"), chi);
-    assert_eq!(place.one("SELECT count(*) FROM v_metrics WHERE converged"), "3");
-    assert_eq!(place.one("SELECT count(*) FROM artefact WHERE kind = 'drape'"), "3", "each computed once");
-    let log = place.toile("queue log 2").ends_with(0).out;
-    assert!(log.contains("queued again"), "{log}");
-}
-
 /// Sections of the results: by level and height, as a table, as JSON and drawn.
-fn sections_are_cut(place: &Place) {
+#[test]
+fn sections_are_cut() {
+    let place = Place::draped();
     let told = place.toile("section . --garment light --json").ends_with(0).json();
     let levels: Vec<&str> = told.as_array().expect("sections").iter().filter_map(|one| one["level"].as_str()).collect();
     assert!(["chest", "waist", "hip"].iter().all(|level| levels.contains(level)), "{levels:?}");

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::program::Place;
+use super::program::{DRAPED, Place};
 use super::seat::Seat;
 use super::workbench::workbench;
 
@@ -22,7 +22,7 @@ fn seen_by_both(seats: &[Seat; 2], what: &str, holds: impl Fn(&str) -> bool + Co
 #[test]
 fn two_workbenches_and_a_run_see_the_same_within_a_second() {
     let place = Place::new();
-    place.study(&[("light", 0.1, &["m"]), ("heavy", 0.3, &["m"])]);
+    place.hybrid_study("", &DRAPED, "");
     let mut command = workbench(&place);
     command.args(["--images", "off"]);
     let Some(first) = Seat::take(&command, 80, 24) else { return };

@@ -3,7 +3,6 @@
 use std::fs;
 use std::process::Command;
 
-use insta::assert_snapshot;
 use rustix::process::Signal;
 
 use super::program::Place;
@@ -21,18 +20,12 @@ pub fn workbench(place: &Place) -> Command {
     command
 }
 
-/// A screen without what differs from run to run: the folder of the test.
-fn plain(screen: &str, place: &Place) -> String {
-    screen.replace(&place.path("").display().to_string(), "FOLDER/")
-}
-
 /// From a first start through a new study, run, cancel, retry, compare, SQL and report to the end, and a second start.
-fn whole_session(columns: u16, rows: u16) {
+#[test]
+fn a_session_from_first_start_to_report() {
     let place = Place::new();
-    let Some(mut seat) = Seat::take(&workbench(&place), columns, rows) else { return };
-    let size = format!("{columns}x{rows}");
-    let first = seat.wait_for("make a study of your own");
-    assert_snapshot!(format!("first_start_{size}"), plain(&first, &place));
+    let Some(mut seat) = Seat::take(&workbench(&place), 80, 24) else { return };
+    seat.wait_for("make a study of your own");
 
     // Sizes S and M of the drafted T-shirt on male-ii, by Hybrid-GS.
     seat.press("a");
@@ -46,7 +39,7 @@ fn whole_session(columns: u16, rows: u16) {
     let file = place.path("studies/study-1/study.toml");
     let text = fs::read_to_string(&file).expect("the study was written");
     assert!(text.contains("like = \"male-ii\"") && text.contains("patterns/tshirt-s.dxf"), "{text}");
-    fs::write(&file, text.replace("edge_length_mm = 15", "edge_length_mm = 40")).expect("writable");
+    fs::write(&file, text.replace("edge_length_mm = 15", "edge_length_mm = 60")).expect("writable");
 
     run_cancel_retry(&seat);
     seat.press("g <Down> ");
@@ -66,7 +59,7 @@ fn whole_session(columns: u16, rows: u16) {
     assert_eq!(seat.end().code(), Some(0));
     seat.is_sane();
 
-    let Some(mut seat) = Seat::take(&workbench(&place), columns, rows) else { return };
+    let Some(mut seat) = Seat::take(&workbench(&place), 80, 24) else { return };
     let again = seat.wait_for("reports/study-1/index.html");
     assert!(again.contains("8 Reports"), "it starts where it was left: {again}");
     seat.press("7");
@@ -94,16 +87,6 @@ fn run_cancel_retry(seat: &Seat) {
     seat.press("p");
     seat.wait_for("the run has ended: study-1: 2 done");
     seat.wait_until("two results", |screen| !screen.contains("…1") && !screen.contains("▶"));
-}
-
-#[test]
-fn a_session_from_first_start_to_report_at_80_by_24() {
-    whole_session(80, 24);
-}
-
-#[test]
-fn a_session_from_first_start_to_report_at_160_by_50() {
-    whole_session(160, 50);
 }
 
 #[test]
@@ -215,7 +198,7 @@ fn a_copy_says_where_it_is() {
 #[test]
 fn a_run_is_left_to_another_process() {
     let place = Place::new();
-    place.study(&[("light", 0.1, &["s", "m", "l"])]);
+    place.hybrid_study("", &[("light", 0.1, &["s", "m", "l"])], "");
     // A pause lets the run be left before it ends.
     place.toile("run . --no-report --size s").ends_with(0);
     place.toile("queue pause coarse").ends_with(0);
@@ -259,12 +242,13 @@ fn a_panic_gives_the_terminal_back_and_is_told() {
 }
 
 /// What normal use sends over a slow line, pictures aside: those come after it, at rest, and are left out here. A screen
-/// that fills a large terminal anew takes `frames` of them.
-fn a_key_costs_less_than_four_kilobytes(columns: u16, rows: u16, frames: usize) {
+/// that fills a large terminal anew takes two of them.
+#[test]
+fn a_key_costs_less_than_four_kilobytes() {
     let place = Place::new();
     let mut command = workbench(&place);
     command.args(["--images", "off"]);
-    let Some(mut seat) = Seat::take(&command, columns, rows) else { return };
+    let Some(mut seat) = Seat::take(&command, 160, 50) else { return };
     seat.wait_for("no study yet");
     seat.settle();
     let check = |keys: &str, frames: usize| {
@@ -282,21 +266,11 @@ fn a_key_costs_less_than_four_kilobytes(columns: u16, rows: u16, frames: usize) 
         ("?", "n <C-c>"),
         ("7", "e s l"),
     ] {
-        check(screen, frames);
+        check(screen, 2);
         keys.split(' ').for_each(|key| check(key, 1));
     }
     seat.press("<C-c>");
     seat.end();
-}
-
-#[test]
-fn a_key_costs_less_than_four_kilobytes_at_80_by_24() {
-    a_key_costs_less_than_four_kilobytes(80, 24, 1);
-}
-
-#[test]
-fn a_key_costs_less_than_four_kilobytes_at_160_by_50() {
-    a_key_costs_less_than_four_kilobytes(160, 50, 2);
 }
 
 /// Keys that come faster than frames share one: what a held key does neither queues up nor fills the line.
@@ -323,7 +297,7 @@ fn a_held_key_does_not_queue_up() {
 #[test]
 fn a_run_in_the_background_is_followed_to_its_end() {
     let place = Place::new();
-    place.study(&[("light", 0.1, &["m"])]);
+    place.hybrid_study("", &[("light", 0.1, &["m"])], "");
     let said = place.toile("run . --detach --no-report").ends_with(0);
     assert!(said.out.contains("coarse runs as process") && said.err.contains("--attach"), "{}{}", said.out, said.err);
     place.toile("run coarse --attach").ends_with(0);

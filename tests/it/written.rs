@@ -2,16 +2,15 @@
 //! that are read: problems at their true lines.
 
 use std::collections::BTreeSet;
-use std::path::Path;
 
-use super::program::Place;
+use super::program::{Place, files};
 use super::report::between;
 
 /// A study of coarse T-shirts on one man, a garment with one size for each of some names.
 fn study(place: &Place, name: &str, garments: &[(&str, &str)]) {
     place.draft();
     let mut text = format!(
-        "name = {name:?}\nedge_length_mm = 40\n[[subject]]\nid = \"a/b\"\nsex = \"male\"\nstature_mm = 1690\n\
+        "name = {name:?}\nedge_length_mm = 60\nsimulators = [\"hybrid\"]\n[[subject]]\nid = \"a/b\"\nsex = \"male\"\nstature_mm = 1690\n\
          chest_girth_mm = 863\n"
     );
     for (garment, size) in garments {
@@ -21,20 +20,6 @@ fn study(place: &Place, name: &str, garments: &[(&str, &str)]) {
         );
     }
     place.write("study.toml", text);
-}
-
-/// All files below a folder by their paths from there.
-fn files(folder: &Path) -> BTreeSet<String> {
-    let mut found = BTreeSet::new();
-    for entry in std::fs::read_dir(folder).expect("a folder").flatten() {
-        let name = entry.file_name().to_string_lossy().into_owned();
-        if entry.path().is_dir() {
-            found.extend(files(&entry.path()).into_iter().map(|file| format!("{name}/{file}")));
-        } else {
-            found.insert(name);
-        }
-    }
-    found
 }
 
 #[test]

@@ -110,8 +110,6 @@ fn looks() {
     };
     check("change", 80, 24, "0a-");
     check("change", 160, 50, "0a-");
-    check("change", 120, 30, "0a-");
-    check("change", 40, 10, "0a-G");
     check("nothing", 80, 24, "0la");
     check("nothing", 160, 50, "0la");
     check("draped", 80, 24, "0a-d");

@@ -36,8 +36,6 @@ fn looks() {
         check("comment_form", width, height, "0mj<Enter><Tab>");
         check("new_comment", width, height, "0mi<Right><Tab><Enter><F5>");
     }
-    check("comments", 120, 30, "0m");
-    check("comments", 40, 10, "0mj");
     check("no_comment", 80, 24, "0llm");
 }
 

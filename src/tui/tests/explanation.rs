@@ -55,10 +55,6 @@ fn every_heading_has_a_term() {
 fn every_number_of_a_result_has_a_term() {
     let numbers = "EI E(chi) SD(chi) max err n seam gap in body residual steps vertices faces ease mm why cached made";
     assert_eq!(unknown(numbers, &[]), "");
-    let screen = Bench::example(160, 50).press("5").screen();
-    for name in ["max err", "seam gap", "in body", "residual"] {
-        assert!(screen.contains(name), "{name}");
-    }
 }
 
 #[test]
@@ -83,7 +79,6 @@ fn what_is_selected_is_told_first() {
             assert!(screen.contains(words), "{keys}: {words} in\n{screen}");
         }
     };
-    check("5jK", &["Sleeve Opening: L2D 356.5 mm, L3D 364.4 mm, chi 1.022", "L3D over L2D"]);
     check("K", &["S on i by FEM, done, EI 0.0117, ease +43 mm, tight", "The mean distance of chi"]);
     check("4KE(chi)", &["job 1, tshirt S on i: done", "The mean of chi"]);
     check("9jK", &["jersey: 104 g/m²"]);

@@ -163,10 +163,7 @@ fn looks() {
     check("fit_section", 80, 24, "0<Tab>");
     check("fit_sizes", 80, 24, "0<Tab><Tab>jj");
     check("fit", 160, 50, "0");
-    check("fit", 120, 30, "0");
     check("fit_without_drape", 80, 24, "0ll");
-    check("fit", 40, 10, "0");
-    check("fit_sizes", 40, 10, "0<Tab><Tab>");
 }
 
 #[test]
