@@ -22,6 +22,7 @@ pub mod piece;
 pub mod pom;
 pub mod progression;
 pub mod propose;
+pub mod recogniser;
 pub mod scale;
 pub mod seam_edit;
 pub mod seams;

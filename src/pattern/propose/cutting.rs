@@ -23,15 +23,15 @@ const FOLD: [&str; 15] = [
 const CUT: [&str; 8] = ["cut", "zuschneiden", "couper", "cortar", "tagliare", "knip", "\u{434}\u{435}\u{442}", "x"];
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Cutting {
+pub struct Cutting {
     /// `None` if the file does not say.
-    times: Option<u32>,
-    on_fold: bool,
+    pub times: Option<u32>,
+    pub on_fold: bool,
 }
 
 impl Cutting {
     /// The quantity goes before the texts.
-    fn of(piece: &Piece) -> Self {
+    pub fn of(piece: &Piece) -> Self {
         let texts = || piece.texts.iter().map(|(_, text)| text.to_lowercase());
         let of_quantity = piece.quantity.as_deref().and_then(|quantity| {
             let numbers = quantity.split(|c: char| !c.is_ascii_digit()).filter_map(|number| number.parse::<u32>().ok());

@@ -15,6 +15,7 @@ mod cutting;
 mod details;
 mod doubt;
 mod drawn_dart;
+mod evident;
 mod faces;
 #[cfg(test)]
 mod garment_tests;
@@ -37,7 +38,7 @@ mod shape;
 mod templates;
 #[cfg(test)]
 mod tests;
-mod told;
+pub(crate) mod told;
 mod waist;
 mod wear;
 mod worn_pieces;
@@ -47,8 +48,10 @@ use std::collections::BTreeSet;
 
 pub use self::ask::{Answers, Question, UnknownAnswer};
 use self::ask::{Asked, Asker};
+use self::evident::Evident;
 pub(super) use self::pose::{Pose, named_face_and_hand, pose};
 use self::recognise::Reading;
+use self::recognised::Recognised;
 pub use self::seam_kind::SeamKind;
 pub use self::wear::Unwearable;
 use self::worn_pieces::Worn;
@@ -58,6 +61,9 @@ use super::seams::SeamEntry;
 use super::style::named::reference;
 use super::trade::{self, Named, PartName};
 pub use super::trade::{Class, Face, Hand};
+
+/// Least share of the outlines that is sure for a proposal by evidence to be taken where rules leave questions.
+const LEAST_SURETY: f64 = 0.3;
 
 /// Least gain in [`Sewn::worth`] for a less likely reading of the pieces to be taken: about one seam.
 const SURER: f64 = 1.0;
@@ -208,10 +214,18 @@ pub struct Proposal {
     #[serde(skip)]
     pub allowance_m: f64,
     #[serde(skip)]
+    made: Made,
+    #[serde(skip)]
     worn: Vec<Worn>,
     /// Texts of the questions that are to be answered before anything is draped.
     #[serde(skip)]
     unsettled: Vec<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Made {
+    ByRules,
+    ByEvidence,
 }
 
 impl Proposal {
@@ -340,7 +354,46 @@ fn without(pieces: &[Piece], answers: &Answers, dismissed: &BTreeSet<usize>) -> 
     let fitted = sew::sew(&worn, &mut asker.aside());
     let worn = agree::assured(worn, &fitted);
     let seams = sew::sew(&worn, &mut asker);
+    let evident = (!is_told(pieces, &named, &is_plain, &worn, &seams, &asker)).then(|| {
+        let is_worn = |k: usize| {
+            let is_part = named[k].class == Some(Class::Other) && named[k].part != Some(PartName::Neck);
+            !is_part && !is_spare[k] && !dismissed.contains(&k)
+        };
+        let mut aside = asker.aside();
+        (evident::evident(pieces, &named, is_worn, &mut aside), aside)
+    });
+    if let Some((evident, aside)) = evident.filter(|(evident, _)| evident.surety > LEAST_SURETY) {
+        let Asked { questions, dismissing, unsettled } = aside.into_asked();
+        let Evident { worn, seams, open, .. } = evident;
+        let pieces = listed(pieces, &[], &worn);
+        let notes = Vec::new();
+        let made = Made::ByEvidence;
+        return (Proposal { pieces, seams, open, questions, notes, size: None, allowance_m: 0.0, made, worn, unsettled }, dismissing);
+    }
     let Asked { questions, dismissing, unsettled } = asker.into_asked();
+    let open = sew::open(&worn, &seams);
+    let pieces = listed(pieces, &recognised, &worn);
+    let proposal =
+        Proposal { pieces, seams, open, questions, notes, size: None, allowance_m: 0.0, made: Made::ByRules, worn, unsettled };
+    (proposal, dismissing)
+}
+
+/// True if the rules read every piece and leave no question.
+fn is_told(
+    pieces: &[Piece],
+    named: &[Named],
+    is_left_out: &impl Fn(usize) -> bool,
+    worn: &[Worn],
+    seams: &[ProposedSeam],
+    asker: &Asker<'_>,
+) -> bool {
+    let is_worn = |k: usize| worn.iter().any(|worn| worn.piece == k);
+    let is_part = |k: usize| named[k].class == Some(Class::Other) && named[k].part != Some(PartName::Neck);
+    let is_read = (0..pieces.len()).all(|k| is_worn(k) || (is_left_out(k) && is_part(k)));
+    is_read && asker.is_silent() && wear::lacking(worn, seams).is_empty()
+}
+
+fn listed(pieces: &[Piece], recognised: &[Recognised], worn: &[Worn]) -> Vec<ProposedPiece> {
     let mut listed: Vec<ProposedPiece> = Vec::new();
     for (index, piece) in pieces.iter().enumerate() {
         let recognised = recognised.iter().find(|found| found.piece == index);
@@ -358,13 +411,12 @@ fn without(pieces: &[Piece], answers: &Answers, dismissed: &BTreeSet<usize>) -> 
         }
         listed.extend(of_this.iter().map(|worn| ProposedPiece {
             id: Some(worn.id.clone()),
+            name: plain.name.clone(),
+            class: Some(worn.class),
+            face: worn.face,
             hand: worn.hand,
             confidence: worn.confidence,
-            ..plain.clone()
         }));
     }
-    let open = sew::open(&worn, &seams);
-    let proposal =
-        Proposal { pieces: listed, seams, open, questions, notes, size: None, allowance_m: 0.0, worn, unsettled };
-    (proposal, dismissing)
+    listed
 }

@@ -53,6 +53,11 @@ pub enum SeamKind {
     Waistband,
     WaistbandSide(Hand),
     WaistbandCentre(Face),
+    /// Pieces by their identifiers, with the number of the seam between them, from 1.
+    Between {
+        pieces: [String; 2],
+        number: usize,
+    },
 }
 
 impl SeamKind {
@@ -106,6 +111,8 @@ impl fmt::Display for SeamKind {
             Self::Waistband => f.write_str("waistband"),
             Self::WaistbandSide(hand) => write!(f, "waistband_{hand}"),
             Self::WaistbandCentre(face) => write!(f, "waistband_{face}"),
+            Self::Between { pieces: [a, b], number: 1 } => write!(f, "{a}_{b}"),
+            Self::Between { pieces: [a, b], number } => write!(f, "{a}_{b}_{number}"),
         }
     }
 }

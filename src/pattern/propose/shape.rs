@@ -1,7 +1,7 @@
 //! Shape of a piece: its outline as edges between corners, with darts identified.
 
 use crate::piece::Piece;
-use crate::style::corners::corner_vertices;
+use crate::style::corners::{corner_vertices, is_on_curve};
 use geom::V2;
 
 /// Turning angle to the right from which a corner is the apex of a dart.
@@ -11,11 +11,6 @@ const LEG_DIFFERENCE: f64 = 0.04;
 /// Greatest mouth of a dart, as a share of its edges. A wider one is a V-neck.
 const WIDEST_MOUTH: f64 = 0.7;
 const LEAST_LEG_M: f64 = 20e-3;
-/// Turning angle from which a marked point is a corner whatever its neighbours. A curve of 30 mm radius, the narrowest
-/// of an armhole or a neck, turns by 19 degrees per centimetre.
-const CLEAR_TURN_DEG: f64 = 20.0;
-/// Least share of the turning angle of a vertex by which its neighbour on the same curve turns.
-const SAME_CURVE: f64 = 0.5;
 /// Growth of the mouth of a dart that does not count.
 const LEAST_STEP_M: f64 = 1e-3;
 /// Greatest distance of a corner from the mirror image of its partner in a symmetric outline, as a share of the size.
@@ -68,19 +63,6 @@ pub fn quarter_turned(p: &V2, quarter_turns: usize) -> V2 {
         2 => -*p,
         _ => V2::new(p.y, -p.x),
     }
-}
-
-/// True if a vertex turns no more than a curve that continues at a neighbour: programs mark grade points along an edge
-/// as they mark corners.
-fn is_on_curve(outline: &[V2], vertex: usize) -> bool {
-    let n = outline.len();
-    let turn = |i: usize| {
-        let (u, v) = (outline[i] - outline[(i + n - 1) % n], outline[(i + 1) % n] - outline[i]);
-        u.perp(&v).atan2(u.dot(&v)).to_degrees()
-    };
-    let own = turn(vertex);
-    let goes_on = |other: f64| other * own > 0.0 && (SAME_CURVE * own.abs()..CLEAR_TURN_DEG).contains(&other.abs());
-    own.abs() < CLEAR_TURN_DEG && [vertex + n - 1, vertex + 1].into_iter().any(|other| goes_on(turn(other % n)))
 }
 
 impl Shape {
@@ -276,30 +258,5 @@ impl Shape {
         let half = arcs.partition_point(|&arc| arc < 0.5 * length).min(points.len() - 1);
         let area = geom::polyline::signed_area(&points);
         Section { chord, middle: points[half], length, bow: area / chord.norm_squared().max(1e-12), turn, has_dart }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_mark_along_a_curve_is_no_corner_and_one_at_the_end_of_an_edge_is() {
-        // A quarter of a circle in steps of a centimetre, between two straight sides.
-        let on_arc = |k: u32| {
-            let angle = std::f64::consts::FRAC_PI_2 * f64::from(k) / 20.0;
-            V2::new(0.13 * angle.cos(), 0.13 * angle.sin())
-        };
-        let outline: Vec<V2> = std::iter::once(V2::zeros()).chain((0..=20).map(on_arc)).collect();
-        let check = |vertex: usize, expect: bool| assert_eq!(is_on_curve(&outline, vertex), expect, "{vertex}");
-        check(0, false);
-        check(1, false);
-        check(2, true);
-        check(11, true);
-        check(20, true);
-        check(21, false);
-        // A hip point between straight sides, shallow as it is.
-        let hip: Vec<V2> = [[0.0, 0.0], [0.3, 0.0], [0.32, 0.2], [0.3, 0.4], [0.0, 0.4]].map(V2::from).to_vec();
-        assert!(!is_on_curve(&hip, 2));
     }
 }

@@ -2,7 +2,7 @@
 //! be closed on the body.
 
 use super::worn_pieces::Worn;
-use super::{Class, Face, Hand, Label, Proposal, ProposedPiece, ProposedSeam, Question, SeamKind, sew};
+use super::{Class, Face, Hand, Label, Made, Proposal, ProposedPiece, ProposedSeam, Question, SeamKind, sew};
 
 /// Least confidence of a seam that is sewn without a question.
 const SURE: f64 = 0.4;
@@ -23,7 +23,7 @@ impl Proposal {
     /// closed, or where it is to be said first what a wide piece is that would be left out.
     pub fn to_drape(&self) -> Result<Self, Unwearable> {
         let mut left = self.clone();
-        while let Some((class, reason)) = left.loose() {
+        while let Some((class, reason)) = left.loose().filter(|_| self.made == Made::ByRules) {
             left.leave_out(class, &reason);
         }
         let missing = left.missing();
@@ -105,7 +105,10 @@ impl Proposal {
             missing.push("no seams were found".to_owned());
             return missing;
         }
-        missing.extend(lacking(&self.worn, &self.seams));
+        match self.made {
+            Made::ByRules => missing.extend(lacking(&self.worn, &self.seams)),
+            Made::ByEvidence => missing.extend(apart(&self.worn, &self.seams)),
+        }
         missing
     }
 }

@@ -194,7 +194,13 @@ fn drawn_leg(candidate: &Recognised) -> Hand {
 }
 
 pub fn id_of(candidate: &Recognised, hand: Option<Hand>) -> String {
-    let class = match candidate.class {
+    id_of_kind(candidate.class, candidate.face, hand)
+}
+
+pub fn id_of_kind(class: Class, face: Option<Face>, hand: Option<Hand>) -> String {
+    // Half of a collar reaches from the back to the front.
+    let face = face.filter(|_| class != Class::Collar);
+    let class = match class {
         Class::Body | Class::Other => None,
         Class::SidePanel => Some("side"),
         Class::Leg => Some("leg"),
@@ -205,8 +211,6 @@ pub fn id_of(candidate: &Recognised, hand: Option<Hand>) -> String {
         Class::Cuff => Some("cuff"),
         Class::Collar => Some("collar"),
     };
-    // Half of a collar reaches from the back to the front.
-    let face = candidate.face.filter(|_| candidate.class != Class::Collar);
     let parts = [class, face.map(Face::as_str), hand.map(Hand::as_str)];
     parts.into_iter().flatten().collect::<Vec<_>>().join("_")
 }

@@ -1,0 +1,315 @@
+//! Proposal by evidence: the pieces as they are cut, and the seams that the recogniser finds between them.
+
+use std::collections::BTreeMap;
+
+use super::ask::Asker;
+use super::cutting::Cutting;
+use super::worn_pieces::{Worn, WornEdge, id_of_kind};
+use super::{Class, Face, Hand, ProposedSeam, SeamKind, role_of};
+use crate::piece::Piece;
+use crate::recogniser::network::{Facts, Garment, Kind, Likelihoods};
+use crate::recogniser::settle::{self, Found};
+use crate::recogniser::{self, Part};
+use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, Ease, PieceEntry, SeamEntry};
+use crate::style::correspond::shares;
+use crate::style::named::reference;
+use crate::trade::{Named, PartName};
+
+/// Most questions that are open at the same time: the answer to one settles others.
+const MOST_ASKED: usize = 3;
+/// Likelihood below which what a stretch is sewn to is asked.
+const DOUBTED: f64 = 0.7;
+/// Length of a stretch below which it is not asked about.
+const LEAST_ASKED_MM: f64 = 30.0;
+/// Least likelihood of a partner that is offered.
+const OFFERED: f64 = 0.02;
+const MOST_OFFERED: usize = 4;
+
+pub struct Evident {
+    pub worn: Vec<Worn>,
+    pub seams: Vec<ProposedSeam>,
+    /// Edges that stay free.
+    pub open: Vec<String>,
+    /// Share of the outlines whose partner, or whose being free, is likelier than [`DOUBTED`].
+    pub surety: f64,
+}
+
+/// A piece as it is cut once.
+#[derive(Clone, Copy)]
+struct Copy {
+    piece: usize,
+    is_mirror: bool,
+}
+
+/// Takes the pieces that `is_worn` accepts.
+pub fn evident(pieces: &[Piece], named: &[Named], is_worn: impl Fn(usize) -> bool, asker: &mut Asker<'_>) -> Evident {
+    let drawn = recogniser::parts(pieces, named);
+    let copies: Vec<Copy> = (0..pieces.len()).filter(|&k| is_worn(k)).flat_map(|k| copies(pieces, k)).collect();
+    let parts: Vec<Part> = copies.iter().map(|copy| as_worn(&drawn[copy.piece], copy.is_mirror)).collect();
+    let garment = Garment::of(&parts);
+    let table = Table { pieces, copies: &copies, parts: &parts, garment: &garment };
+    let (found, likely) = table.settled(asker);
+    table.sewn(named, &found, &likely)
+}
+
+/// By the quantity: pairs are mirror images.
+fn copies(pieces: &[Piece], piece: usize) -> Vec<Copy> {
+    let Cutting { times, on_fold } = Cutting::of(&pieces[piece]);
+    let is_half = on_fold && pieces[piece].beside.fold.is_none();
+    let times = if is_half { 2 } else { times.unwrap_or(1).clamp(1, 24) };
+    (0..times).map(|time| Copy { piece, is_mirror: time % 2 == 1 }).collect()
+}
+
+fn as_worn(part: &Part, is_mirror: bool) -> Part {
+    if is_mirror { part.mirrored() } else { part.clone() }
+}
+
+struct Table<'t> {
+    pieces: &'t [Piece],
+    copies: &'t [Copy],
+    parts: &'t [Part],
+    garment: &'t Garment,
+}
+
+struct Settled {
+    found: Vec<Found>,
+    free: Vec<f64>,
+}
+
+impl Table<'_> {
+    /// Number of a stretch of a part along its piece as drawn, from 1.
+    fn number(&self, stretch: usize) -> usize {
+        let stretch = &self.garment.stretches[stretch];
+        let count = self.parts[stretch.part].corners.len();
+        1 + if self.copies[stretch.part].is_mirror { (2 * count - 2 - stretch.at) % count } else { stretch.at }
+    }
+
+    /// Stretch for a person to find in the picture.
+    fn name(&self, stretch: usize) -> String {
+        let part = self.garment.stretches[stretch].part;
+        let copy = self.copies[part];
+        let which = self.copies[..part].iter().filter(|other| other.piece == copy.piece).count();
+        let is_one = self.copies.iter().filter(|other| other.piece == copy.piece).count() == 1;
+        let which = if is_one { String::new() } else { format!(" (copy {})", which + 1) };
+        format!("edge {} of `{}`{which}", self.number(stretch), reference(self.pieces, copy.piece))
+    }
+
+    /// Asks about what is doubtful, and hears the answers.
+    fn settled(&self, asker: &mut Asker<'_>) -> (Settled, Likelihoods) {
+        let (mut facts, mut asked, mut open) = (Facts::default(), Vec::new(), 0);
+        let first = self.garment.likelihoods(&facts);
+        loop {
+            let settled = self.settle(&facts);
+            let doubt = if open < MOST_ASKED { self.doubt(&settled, &asked) } else { None };
+            let Some(stretch) = doubt else { return (settled, first) };
+            asked.push(stretch);
+            let text = format!("what is sewn to {}?", self.name(stretch));
+            let partners = self.partners(stretch, &first, &settled);
+            let choices: Vec<String> = partners
+                .iter()
+                .map(|partner| partner.map_or_else(|| "nothing: it stays open".to_owned(), |k| self.name(k)))
+                .collect();
+            let is_answered = asker.is_answered(&text);
+            let taken = asker.ask_at(Vec::new(), text, choices, Some(0));
+            match taken.filter(|_| is_answered).and_then(|choice| partners.get(choice)) {
+                Some(&Some(partner)) => facts.sew(stretch, partner),
+                Some(None) => facts.free(stretch),
+                None => open += 1,
+            }
+        }
+    }
+
+    fn settle(&self, facts: &Facts) -> Settled {
+        let settled = settle::seams(self.garment, facts);
+        Settled { found: settled.seams, free: settled.free }
+    }
+
+    /// Stretch whose partner matters most and is least sure.
+    fn doubt(&self, settled: &Settled, asked: &[usize]) -> Option<usize> {
+        let mut sure: Vec<f64> = settled.free.clone();
+        for found in &settled.found {
+            (sure[found.a], sure[found.b]) = (found.confidence, found.confidence);
+        }
+        let length = |k: usize| self.garment.stretches[k].length;
+        let is_asked = |k: usize| {
+            let symmetry = &self.garment.symmetry;
+            asked.contains(&k) || symmetry.twin[k].is_some_and(|twin| asked.contains(&twin))
+        };
+        let doubtful = (0..sure.len()).filter(|&k| sure[k] < DOUBTED && length(k) > LEAST_ASKED_MM && !is_asked(k));
+        let cost = |k: usize| (1.0 - sure[k]) * length(k).min(300.0);
+        doubtful.max_by(|&a, &b| cost(a).total_cmp(&cost(b)).then(b.cmp(&a)))
+    }
+
+    /// What a stretch may be sewn to, the partner in effect first. `None` stands for staying free.
+    fn partners(&self, stretch: usize, likely: &Likelihoods, settled: &Settled) -> Vec<Option<usize>> {
+        let of_found = |found: &Found| match stretch {
+            k if k == found.a => Some(found.b),
+            k if k == found.b => Some(found.a),
+            _ => None,
+        };
+        let mut partners = vec![settled.found.iter().find_map(of_found)];
+        let mut others: Vec<usize> = (0..self.garment.stretches.len()).filter(|&k| k != stretch).collect();
+        others.sort_by(|&a, &b| likely.of(stretch, b).total_cmp(&likely.of(stretch, a)));
+        let offered = others.into_iter().filter(|&k| likely.of(stretch, k) > OFFERED).take(MOST_OFFERED);
+        for partner in offered.map(Some).chain([None]) {
+            if !partners.contains(&partner) {
+                partners.push(partner);
+            }
+        }
+        partners
+    }
+
+    fn sewn(&self, named: &[Named], settled: &Settled, likely: &Likelihoods) -> Evident {
+        let places = places(self.parts, &self.garment.symmetry.twin_part, &likely.kinds);
+        let named: Vec<Named> = self.copies.iter().map(|copy| named[copy.piece]).collect();
+        let is_bodice = places.iter().any(|place| is_below(place.class));
+        let sewn = |part: usize| {
+            settled.found.iter().any(|found| {
+                [found.a, found.b].into_iter().any(|k| self.garment.stretches[k].part == part)
+            })
+        };
+        let mut worn: Vec<Worn> = Vec::new();
+        let mut of_part: Vec<Option<usize>> = Vec::new();
+        for (part, place) in places.iter().enumerate() {
+            if !sewn(part) {
+                of_part.push(None);
+                continue;
+            }
+            let base = id_of_kind(place.class, place.face, place.hand);
+            let base = if base.is_empty() { "part".to_owned() } else { base };
+            let same = worn.iter().filter(|worn| worn.id == base || is_numbered(&worn.id, &base)).count();
+            let id = if same == 0 { base } else { format!("{base}_{}", same + 1) };
+            let class = named[part].class.filter(|&class| class != Class::Other).unwrap_or(place.class);
+            let role = role_of(Some(class), place.face, place.hand, is_bodice);
+            of_part.push(Some(worn.len()));
+            worn.push(self.worn(part, id, *place, role));
+        }
+        let edge = |k: usize| {
+            let worn = of_part[self.garment.stretches[k].part].map(|index| &worn[index]);
+            worn.map_or_else(String::new, |worn| format!("{}.edge_{}", worn.id, self.number(k)))
+        };
+        let mut names: BTreeMap<String, usize> = BTreeMap::new();
+        let mut seams: Vec<ProposedSeam> =
+            settled.found.iter().map(|found| self.seam(found, [edge(found.a), edge(found.b)], &mut names)).collect();
+        seams.sort_by(|a, b| b.confidence.total_cmp(&a.confidence));
+        let is_free = |k: &usize| settled.found.iter().all(|found| found.a != *k && found.b != *k);
+        let is_of_worn = |k: &usize| of_part[self.garment.stretches[*k].part].is_some();
+        let open = (0..self.garment.stretches.len()).filter(is_free).filter(is_of_worn).map(edge).collect();
+        Evident { worn, seams, open, surety: self.surety(settled) }
+    }
+
+    fn surety(&self, settled: &Settled) -> f64 {
+        let mut sure = settled.free.clone();
+        for found in &settled.found {
+            (sure[found.a], sure[found.b]) = (found.confidence, found.confidence);
+        }
+        let lengths = || self.garment.stretches.iter().map(|stretch| stretch.length);
+        let known: f64 = lengths().zip(&sure).filter(|(_, sure)| **sure >= DOUBTED).map(|(length, _)| length).sum();
+        known / lengths().sum::<f64>()
+    }
+
+    fn seam(&self, found: &Found, [a, b]: [String; 2], names: &mut BTreeMap<String, usize>) -> ProposedSeam {
+        let [first, second] = [found.a, found.b].map(|k| &self.garment.stretches[k]);
+        let (a_mm, b_mm) = (first.length, second.length);
+        let id = |edge: &str| edge.split_once('.').map_or_else(String::new, |(id, _)| id.to_owned());
+        let mut count = |base: &str| {
+            let count = names.entry(base.to_owned()).or_default();
+            *count += 1;
+            *count
+        };
+        let kind = if first.part == second.part {
+            let piece = id(&a);
+            SeamKind::Dart { number: count(&piece), piece }
+        } else {
+            let base = format!("{}_{}", id(&a), id(&b));
+            SeamKind::Between { number: count(&base), pieces: [id(&a), id(&b)] }
+        };
+        let excess = ((a_mm - b_mm) * 10.0).round() / 10.0;
+        let ease_mm = Ease::Same(if excess.abs() > 0.5 * DEFAULT_LENGTH_TOLERANCE_MM { excess } else { 0.0 });
+        let entry = SeamEntry { name: kind.to_string(), a: vec![a], b: vec![b], same_direction: false, ease_mm };
+        ProposedSeam { entry, kind, a_mm, b_mm, confidence: found.confidence }
+    }
+
+    fn worn(&self, part: usize, id: String, place: Place, role: crate::Role) -> Worn {
+        let Copy { piece, is_mirror } = self.copies[part];
+        let own: Vec<usize> =
+            (0..self.garment.stretches.len()).filter(|&k| self.garment.stretches[k].part == part).collect();
+        let edges = own.iter().map(|&k| {
+            let stretch = &self.garment.stretches[k];
+            WornEdge {
+                name: format!("edge_{}", self.number(k)),
+                label: None,
+                hand: None,
+                length: stretch.length / 1000.0,
+                notches: stretch.notches.iter().map(|arc| arc / 1000.0).collect(),
+            }
+        });
+        let count = own.len();
+        let outline = self.pieces[piece].seam_outline();
+        let drawn = recogniser::corners(&self.pieces[piece]);
+        Worn {
+            piece,
+            id,
+            class: place.class,
+            face: place.face,
+            hand: place.hand,
+            is_whole: false,
+            is_gore: false,
+            darts: Vec::new(),
+            entry: PieceEntry {
+                block: reference(self.pieces, piece),
+                role,
+                mirror: is_mirror,
+                corners_at: shares(outline, &drawn),
+                allowance_mm: BTreeMap::new(),
+                edges: (0..count).map(|k| (format!("edge_{}", k + 1), [k, (k + 1) % count])).collect(),
+            },
+            edges: edges.collect(),
+            confidence: place.confidence,
+        }
+    }
+}
+
+fn is_numbered(id: &str, base: &str) -> bool {
+    id.strip_prefix(base).and_then(|rest| rest.strip_prefix('_')).is_some_and(|rest| rest.parse::<usize>().is_ok())
+}
+
+fn is_below(class: Class) -> bool {
+    matches!(class, Class::Skirt | Class::Leg | Class::Waistband)
+}
+
+#[derive(Clone, Copy)]
+struct Place {
+    class: Class,
+    face: Option<Face>,
+    hand: Option<Hand>,
+    confidence: f64,
+}
+
+/// By the name, and where it does not tell, by evidence. Mirror images are of two hands.
+fn places(parts: &[Part], twins: &[Option<usize>], kinds: &[Kind]) -> Vec<Place> {
+    let place = |part: usize| {
+        let (said, kind) = (parts[part].said, &kinds[part]);
+        let (class, sure) = match said.class {
+            Some(Class::Other) if said.part == Some(PartName::Neck) => (Class::Collar, 1.0),
+            Some(class) => (class, 1.0),
+            None => kind.class(),
+        };
+        let face = said.face.or_else(|| kind.face().0);
+        let hand = said.hand.or_else(|| match twins[part] {
+            Some(twin) => {
+                let of_twin = parts[twin].said.hand.map(Hand::other);
+                let is_right = kind.rightness() - kinds[twin].rightness();
+                of_twin.or(match is_right {
+                    _ if kind.bothness() + kinds[twin].bothness() > 1.0 => None,
+                    r if r > 0.0 || (r == 0.0 && part < twin) => Some(Hand::Right),
+                    _ => Some(Hand::Left),
+                })
+            }
+            None if kind.bothness() > 0.5 => None,
+            None => Some(if kind.rightness() > 0.0 { Hand::Right } else { Hand::Left }),
+        });
+        Place { class, face, hand, confidence: sure }
+    };
+    (0..parts.len()).map(place).collect()
+}
