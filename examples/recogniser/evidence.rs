@@ -11,6 +11,7 @@ use std::io::{BufRead, BufReader, BufWriter, Write};
 
 use serde_json::Value;
 use toile::geom::V2;
+use toile::pattern::propose;
 use toile::pattern::recogniser::{self, evidence, stretch, symmetry};
 use toile::pattern::{Notch, Piece};
 
@@ -44,8 +45,9 @@ fn main() -> Outcome {
     let mut out = BufWriter::new(File::create(out)?);
     for line in BufReader::new(File::open(garments)?).lines() {
         let garment: Value = serde_json::from_str(&line?)?;
-        let pieces: Vec<Piece> = garment["pieces"].as_array().map_or(&[][..], Vec::as_slice).iter().map(piece).collect();
-        write(&recogniser::parts(&pieces, &recogniser::named(&pieces)), &mut out)?;
+        let pieces: Vec<Piece> =
+            garment["pieces"].as_array().map_or(&[][..], Vec::as_slice).iter().map(piece).collect();
+        write(&recogniser::parts(&pieces, &propose::named(&pieces)), &mut out)?;
     }
     Ok(out.flush()?)
 }
@@ -62,7 +64,7 @@ fn write(parts: &[recogniser::Part], out: &mut impl Write) -> Outcome {
     integers(symmetry.twin.iter().map(|&found| index(found)), out)?;
     integers(stretches.iter().map(|stretch| symmetry.kind[stretch.part] as i32), out)?;
     let starts = stretches.iter().map(|stretch| start_mm(&parts[stretch.part], stretch.at));
-    let lengths = stretches.iter().map(|stretch| stretch.length);
+    let lengths = stretches.iter().map(|stretch| 1000.0 * stretch.length);
     let angles = stretches.iter().map(|stretch| stretch.start_angle);
     floats(starts.chain(lengths).chain(angles).map(|number| number as f32), out)?;
     floats(seen.shape.iter().flatten().copied(), out)?;

@@ -143,11 +143,6 @@ impl<'a> Asker<'a> {
         self.answers.contains_key(text)
     }
 
-    /// True without a question that is left to answer.
-    pub fn is_silent(&self) -> bool {
-        self.asked.iter().all(|question| question.is_answered)
-    }
-
     pub fn into_asked(self) -> Asked {
         Asked { questions: self.asked, dismissing: self.dismissing, unsettled: self.unsettled }
     }

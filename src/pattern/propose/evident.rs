@@ -5,22 +5,31 @@ use std::collections::BTreeMap;
 use super::ask::Asker;
 use super::cutting::Cutting;
 use super::worn_pieces::{Worn, WornEdge, id_of_kind};
-use super::{Class, Face, Hand, ProposedSeam, SeamKind, role_of};
+use super::{Class, Face, Hand, Label, ProposedSeam, SeamKind, role_of};
 use crate::piece::Piece;
-use crate::recogniser::network::{Facts, Garment, Kind, Likelihoods};
+use crate::recogniser::facts::Facts;
+use crate::recogniser::network::{Garment, Kind, Likelihoods};
 use crate::recogniser::settle::{self, Found};
 use crate::recogniser::{self, Part};
 use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, Ease, PieceEntry, SeamEntry};
 use crate::style::correspond::shares;
 use crate::style::named::reference;
 use crate::trade::{Named, PartName};
+use geom::units::mm;
 
 /// Most questions that are open at the same time: the answer to one settles others.
 const MOST_ASKED: usize = 3;
 /// Likelihood below which what a stretch is sewn to is asked.
-const DOUBTED: f64 = 0.7;
-/// Length of a stretch below which it is not asked about.
-const LEAST_ASKED_MM: f64 = 30.0;
+const DOUBTED: f64 = 0.8;
+/// Length of a stretch below which it is not asked about, and its kind says little.
+const LEAST_ASKED_M: f64 = 30e-3;
+/// Cost in nats of a seam between a front of one hand and a back of the other: drawn from inside, a piece is of the other
+/// hand.
+const CROSSED: f64 = 3.0;
+/// Cost in nats of names that mislead: a stranger's words may be of any language.
+const MISNAMED: f64 = 1.0;
+/// Length beyond which a stretch matters no more.
+const LONG_M: f64 = 0.3;
 /// Least likelihood of a partner that is offered.
 const OFFERED: f64 = 0.02;
 const MOST_OFFERED: usize = 4;
@@ -41,15 +50,65 @@ struct Copy {
     is_mirror: bool,
 }
 
-/// Takes the pieces that `is_worn` accepts.
-pub fn evident(pieces: &[Piece], named: &[Named], is_worn: impl Fn(usize) -> bool, asker: &mut Asker<'_>) -> Evident {
+/// Takes the pieces that `is_worn` accepts. `None` where nothing is sewn.
+pub fn evident(
+    pieces: &[Piece],
+    named: &[Named],
+    is_worn: impl Fn(usize) -> bool,
+    asker: &mut Asker<'_>,
+) -> Option<Evident> {
     let drawn = recogniser::parts(pieces, named);
     let copies: Vec<Copy> = (0..pieces.len()).filter(|&k| is_worn(k)).flat_map(|k| copies(pieces, k)).collect();
-    let parts: Vec<Part> = copies.iter().map(|copy| as_worn(&drawn[copy.piece], copy.is_mirror)).collect();
-    let garment = Garment::of(&parts);
+    let ways = ways(&drawn, copies);
+    let weighed = ways.into_iter().map(|(cost, copies, parts)| {
+        let garment = Garment::of(&parts);
+        let settled = settle::seams(&garment, &Facts::default());
+        let evidence = settled.evidence() - cost - CROSSED * crossed(&parts, &garment, &settled.seams) as f64;
+        (evidence, copies, parts, garment)
+    });
+    let best = weighed.reduce(|best, way| if way.0 > best.0 { way } else { best });
+    let (_, copies, parts, garment) = best.filter(|(_, _, _, garment)| !garment.stretches.is_empty())?;
     let table = Table { pieces, copies: &copies, parts: &parts, garment: &garment };
-    let (found, likely) = table.settled(asker);
-    table.sewn(named, &found, &likely)
+    let (settled, likely) = table.settled(asker);
+    (!settled.found.is_empty()).then(|| table.sewn(named, &settled, &likely))
+}
+
+/// Number of seams between a front of one hand and a back of the other.
+fn crossed(parts: &[Part], garment: &Garment, seams: &[Found]) -> usize {
+    let is_crossed = |seam: &&Found| {
+        let [a, b] = [seam.a, seam.b].map(|k| parts[garment.stretches[k].part].said);
+        let are_others = |a: Option<Hand>, b: Option<Hand>| a.is_some() && a.map(Hand::other) == b;
+        are_others(a.hand, b.hand) && a.face.is_some() && a.face.map(Face::other) == b.face
+    };
+    seams.iter().filter(is_crossed).count()
+}
+
+/// Ways to read the drawing, each with its cost: as it is called, with the backs drawn from inside, and by shape alone.
+fn ways(drawn: &[Part], copies: Vec<Copy>) -> Vec<(f64, Vec<Copy>, Vec<Part>)> {
+    let is_back = |copy: &Copy| drawn[copy.piece].said.face == Some(Face::Back);
+    let turn = |copy: &Copy| Copy { is_mirror: copy.is_mirror != is_back(copy), ..*copy };
+    let turned: Vec<Copy> = copies.iter().map(turn).collect();
+    let parts = |copies: &[Copy]| -> Vec<Part> {
+        copies.iter().map(|copy| as_worn(&drawn[copy.piece], copy.is_mirror)).collect()
+    };
+    let nameless = parts(&copies).into_iter().map(|part| Part { said: Named::default(), ..part }).collect();
+    let mut ways = vec![(0.0, copies.clone(), parts(&copies))];
+    if copies.iter().any(is_back) {
+        ways.push((0.0, turned.clone(), parts(&turned)));
+    }
+    if drawn.iter().any(|part| !part.said.is_nameless()) {
+        ways.push((MISNAMED, copies, nameless));
+    }
+    ways
+}
+
+/// True if every piece is drawn as often as it is worn, as the garments are that the recogniser was fitted to.
+pub fn is_drawn_whole(pieces: &[Piece], is_worn: impl Fn(usize) -> bool) -> bool {
+    let is_whole = |piece: &Piece| {
+        let Cutting { times, on_fold } = Cutting::of(piece);
+        times == Some(1) && !on_fold && piece.beside.fold.is_none()
+    };
+    (0..pieces.len()).filter(|&k| is_worn(k)).all(|k| is_whole(&pieces[k]))
 }
 
 /// By the quantity: pairs are mirror images.
@@ -102,9 +161,9 @@ impl Table<'_> {
             let settled = self.settle(&facts);
             let doubt = if open < MOST_ASKED { self.doubt(&settled, &asked) } else { None };
             let Some(stretch) = doubt else { return (settled, first) };
-            asked.push(stretch);
-            let text = format!("what is sewn to {}?", self.name(stretch));
             let partners = self.partners(stretch, &first, &settled);
+            asked.extend([Some(stretch), partners[0]].into_iter().flatten());
+            let text = format!("what is sewn to {}?", self.name(stretch));
             let choices: Vec<String> = partners
                 .iter()
                 .map(|partner| partner.map_or_else(|| "nothing: it stays open".to_owned(), |k| self.name(k)))
@@ -135,8 +194,8 @@ impl Table<'_> {
             let symmetry = &self.garment.symmetry;
             asked.contains(&k) || symmetry.twin[k].is_some_and(|twin| asked.contains(&twin))
         };
-        let doubtful = (0..sure.len()).filter(|&k| sure[k] < DOUBTED && length(k) > LEAST_ASKED_MM && !is_asked(k));
-        let cost = |k: usize| (1.0 - sure[k]) * length(k).min(300.0);
+        let doubtful = (0..sure.len()).filter(|&k| sure[k] < DOUBTED && length(k) > LEAST_ASKED_M && !is_asked(k));
+        let cost = |k: usize| (1.0 - sure[k]) * length(k).min(LONG_M);
         doubtful.max_by(|&a, &b| cost(a).total_cmp(&cost(b)).then(b.cmp(&a)))
     }
 
@@ -164,10 +223,12 @@ impl Table<'_> {
         let named: Vec<Named> = self.copies.iter().map(|copy| named[copy.piece]).collect();
         let is_bodice = places.iter().any(|place| is_below(place.class));
         let sewn = |part: usize| {
-            settled.found.iter().any(|found| {
-                [found.a, found.b].into_iter().any(|k| self.garment.stretches[k].part == part)
-            })
+            settled
+                .found
+                .iter()
+                .any(|found| [found.a, found.b].into_iter().any(|k| self.garment.stretches[k].part == part))
         };
+        let labels = self.labels(&places, &settled.found);
         let mut worn: Vec<Worn> = Vec::new();
         let mut of_part: Vec<Option<usize>> = Vec::new();
         for (part, place) in places.iter().enumerate() {
@@ -182,11 +243,11 @@ impl Table<'_> {
             let class = named[part].class.filter(|&class| class != Class::Other).unwrap_or(place.class);
             let role = role_of(Some(class), place.face, place.hand, is_bodice);
             of_part.push(Some(worn.len()));
-            worn.push(self.worn(part, id, *place, role));
+            worn.push(self.worn(part, id, *place, role, &labels));
         }
         let edge = |k: usize| {
             let worn = of_part[self.garment.stretches[k].part].map(|index| &worn[index]);
-            worn.map_or_else(String::new, |worn| format!("{}.edge_{}", worn.id, self.number(k)))
+            worn.map_or_else(String::new, |worn| format!("{}.{}", worn.id, self.edge(labels[k], k)))
         };
         let mut names: BTreeMap<String, usize> = BTreeMap::new();
         let mut seams: Vec<ProposedSeam> =
@@ -210,7 +271,7 @@ impl Table<'_> {
 
     fn seam(&self, found: &Found, [a, b]: [String; 2], names: &mut BTreeMap<String, usize>) -> ProposedSeam {
         let [first, second] = [found.a, found.b].map(|k| &self.garment.stretches[k]);
-        let (a_mm, b_mm) = (first.length, second.length);
+        let (a_mm, b_mm) = (mm(first.length), mm(second.length));
         let id = |edge: &str| edge.split_once('.').map_or_else(String::new, |(id, _)| id.to_owned());
         let mut count = |base: &str| {
             let count = names.entry(base.to_owned()).or_default();
@@ -230,21 +291,38 @@ impl Table<'_> {
         ProposedSeam { entry, kind, a_mm, b_mm, confidence: found.confidence }
     }
 
-    fn worn(&self, part: usize, id: String, place: Place, role: crate::Role) -> Worn {
+    /// Names of edges begin with what they are: so a piece is known to be upright.
+    fn edge(&self, label: Option<Label>, stretch: usize) -> String {
+        format!("{}_{}", label.map_or("edge", Label::as_str), self.number(stretch))
+    }
+
+    fn labels(&self, places: &[Place], found: &[Found]) -> Vec<Option<Label>> {
+        let place = |k: usize| places[self.garment.stretches[k].part];
+        let mut partners: Vec<Option<Place>> = vec![None; self.garment.stretches.len()];
+        for seam in found {
+            (partners[seam.a], partners[seam.b]) = (Some(place(seam.b)), Some(place(seam.a)));
+        }
+        let is_long = |k: usize| self.garment.stretches[k].length > LEAST_ASKED_M;
+        let label = |(k, partner): (usize, &Option<Place>)| label(place(k), *partner).filter(|_| is_long(k));
+        partners.iter().enumerate().map(label).collect()
+    }
+
+    fn worn(&self, part: usize, id: String, place: Place, role: crate::Role, labels: &[Option<Label>]) -> Worn {
         let Copy { piece, is_mirror } = self.copies[part];
         let own: Vec<usize> =
             (0..self.garment.stretches.len()).filter(|&k| self.garment.stretches[k].part == part).collect();
         let edges = own.iter().map(|&k| {
             let stretch = &self.garment.stretches[k];
             WornEdge {
-                name: format!("edge_{}", self.number(k)),
-                label: None,
+                name: self.edge(labels[k], k),
+                label: labels[k],
                 hand: None,
-                length: stretch.length / 1000.0,
-                notches: stretch.notches.iter().map(|arc| arc / 1000.0).collect(),
+                length: stretch.length,
+                notches: stretch.notches.clone(),
             }
         });
         let count = own.len();
+        let corners = |(name, from): (String, usize)| (name, [from, (from + 1) % count]);
         let outline = self.pieces[piece].seam_outline();
         let drawn = recogniser::corners(&self.pieces[piece]);
         Worn {
@@ -262,7 +340,7 @@ impl Table<'_> {
                 mirror: is_mirror,
                 corners_at: shares(outline, &drawn),
                 allowance_mm: BTreeMap::new(),
-                edges: (0..count).map(|k| (format!("edge_{}", k + 1), [k, (k + 1) % count])).collect(),
+                edges: own.iter().map(|&k| (self.edge(labels[k], k), self.number(k) - 1)).map(corners).collect(),
             },
             edges: edges.collect(),
             confidence: place.confidence,
@@ -284,6 +362,26 @@ struct Place {
     face: Option<Face>,
     hand: Option<Hand>,
     confidence: f64,
+}
+
+/// What an edge is by what it is sewn to. `None` where that does not tell.
+fn label(own: Place, partner: Option<Place>) -> Option<Label> {
+    let is_of = |classes: &[Class]| partner.is_some_and(|partner| classes.contains(&partner.class));
+    let is_across = partner.is_some_and(|partner| partner.face == own.face && partner.hand != own.hand);
+    match own.class {
+        Class::Sleeve if is_of(&[Class::Body, Class::Yoke, Class::SidePanel]) => Some(Label::Cap),
+        Class::Sleeve if partner.is_none() || is_of(&[Class::Cuff]) => Some(Label::Lower),
+        Class::Body if is_of(&[Class::Sleeve]) => Some(Label::Armhole),
+        Class::Body if is_of(&[Class::Collar]) => Some(Label::Neck),
+        Class::Body if is_of(&[Class::Skirt, Class::Leg, Class::Waistband]) => Some(Label::Hem),
+        Class::Body if is_of(&[Class::Body]) && is_across => Some(Label::Centre),
+        Class::Skirt | Class::Leg if is_of(&[Class::Waistband, Class::Body]) => Some(Label::Waist),
+        Class::Skirt | Class::Leg if partner.is_none() || is_of(&[Class::Cuff]) => Some(Label::Hem),
+        Class::Leg if is_of(&[Class::Leg]) && is_across => Some(Label::Crotch),
+        Class::Waistband if is_of(&[Class::Skirt, Class::Leg]) => Some(Label::Lower),
+        Class::Waistband if is_of(&[Class::Waistband]) => Some(Label::End),
+        _ => None,
+    }
 }
 
 /// By the name, and where it does not tell, by evidence. Mirror images are of two hands.

@@ -38,7 +38,7 @@ mod shape;
 mod templates;
 #[cfg(test)]
 mod tests;
-pub(crate) mod told;
+mod told;
 mod waist;
 mod wear;
 mod worn_pieces;
@@ -151,6 +151,11 @@ fn role_of(class: Option<Class>, face: Option<Face>, hand: Option<Hand>, is_bodi
         (Some(Class::Waistband), ..) => Role::Waistband,
         _ => Role::Other,
     }
+}
+
+/// Statements of the names and texts of the pieces.
+pub fn named(pieces: &[Piece]) -> Vec<Named> {
+    told::told(pieces).into_iter().map(told::Told::all).collect()
 }
 
 pub(super) fn said(name: &str) -> Named {
@@ -354,43 +359,42 @@ fn without(pieces: &[Piece], answers: &Answers, dismissed: &BTreeSet<usize>) -> 
     let fitted = sew::sew(&worn, &mut asker.aside());
     let worn = agree::assured(worn, &fitted);
     let seams = sew::sew(&worn, &mut asker);
-    let evident = (!is_told(pieces, &named, &is_plain, &worn, &seams, &asker)).then(|| {
-        let is_worn = |k: usize| {
-            let is_part = named[k].class == Some(Class::Other) && named[k].part != Some(PartName::Neck);
-            !is_part && !is_spare[k] && !dismissed.contains(&k)
-        };
+    let is_part = |k: usize| named[k].class == Some(Class::Other) && named[k].part != Some(PartName::Neck);
+    let may_be_worn = |k: usize| !is_part(k) && !is_spare[k] && !dismissed.contains(&k);
+    let is_read = (0..pieces.len()).all(|k| !may_be_worn(k) || worn.iter().any(|worn| worn.piece == k));
+    let is_told = is_read && wear::is_closed(&worn, &seams);
+    let evident = (!is_told && evident::is_drawn_whole(pieces, may_be_worn)).then(|| {
         let mut aside = asker.aside();
-        (evident::evident(pieces, &named, is_worn, &mut aside), aside)
+        (evident::evident(pieces, &named, may_be_worn, &mut aside), aside)
     });
-    if let Some((evident, aside)) = evident.filter(|(evident, _)| evident.surety > LEAST_SURETY) {
+    let sure = evident.and_then(|(evident, aside)| Some((evident.filter(|it| it.surety > LEAST_SURETY)?, aside)));
+    if let Some((evident, aside)) = sure {
         let Asked { questions, dismissing, unsettled } = aside.into_asked();
         let Evident { worn, seams, open, .. } = evident;
         let pieces = listed(pieces, &[], &worn);
         let notes = Vec::new();
         let made = Made::ByEvidence;
-        return (Proposal { pieces, seams, open, questions, notes, size: None, allowance_m: 0.0, made, worn, unsettled }, dismissing);
+        return (
+            Proposal { pieces, seams, open, questions, notes, size: None, allowance_m: 0.0, made, worn, unsettled },
+            dismissing,
+        );
     }
     let Asked { questions, dismissing, unsettled } = asker.into_asked();
     let open = sew::open(&worn, &seams);
     let pieces = listed(pieces, &recognised, &worn);
-    let proposal =
-        Proposal { pieces, seams, open, questions, notes, size: None, allowance_m: 0.0, made: Made::ByRules, worn, unsettled };
+    let proposal = Proposal {
+        pieces,
+        seams,
+        open,
+        questions,
+        notes,
+        size: None,
+        allowance_m: 0.0,
+        made: Made::ByRules,
+        worn,
+        unsettled,
+    };
     (proposal, dismissing)
-}
-
-/// True if the rules read every piece and leave no question.
-fn is_told(
-    pieces: &[Piece],
-    named: &[Named],
-    is_left_out: &impl Fn(usize) -> bool,
-    worn: &[Worn],
-    seams: &[ProposedSeam],
-    asker: &Asker<'_>,
-) -> bool {
-    let is_worn = |k: usize| worn.iter().any(|worn| worn.piece == k);
-    let is_part = |k: usize| named[k].class == Some(Class::Other) && named[k].part != Some(PartName::Neck);
-    let is_read = (0..pieces.len()).all(|k| is_worn(k) || (is_left_out(k) && is_part(k)));
-    is_read && asker.is_silent() && wear::lacking(worn, seams).is_empty()
 }
 
 fn listed(pieces: &[Piece], recognised: &[Recognised], worn: &[Worn]) -> Vec<ProposedPiece> {

@@ -38,8 +38,8 @@ const WORDS: [&str; 216] = [
     "房屋", "河流", "夏天", "窗户", "花园", "面包", "石头", "海洋", "山", "冬天", "苹果", "蜡烛", "市场", "银",
 ];
 
-/// An edge as drawn: its piece, true for the mirror image, and its corners.
-type Drawn = (usize, bool, [usize; 2]);
+/// An edge as drawn: its piece, true for the mirror image, and its corners in hundredths of the piece.
+type Drawn = (usize, bool, [[i64; 2]; 2]);
 /// Seams by their drawn edges, independent of all names.
 type Sewn = BTreeSet<BTreeSet<Drawn>>;
 
@@ -47,7 +47,8 @@ fn sewn_edges(proposal: &Proposal) -> Sewn {
     let drawn = |edge: &String| {
         let (id, edge) = edge.split_once('.').expect("PIECE.EDGE");
         let worn = proposal.worn.iter().find(|worn| worn.id == id).expect("a piece");
-        (worn.piece, worn.entry.mirror, worn.entry.edges[edge])
+        let place = |corner: usize| worn.entry.corners_at[corner].map(|share| (share * 100.0).round() as i64);
+        (worn.piece, worn.entry.mirror, worn.entry.edges[edge].map(place))
     };
     proposal.seams.iter().map(|seam| seam.entry.a.iter().chain(&seam.entry.b).map(drawn).collect()).collect()
 }

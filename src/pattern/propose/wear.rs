@@ -113,6 +113,11 @@ impl Proposal {
     }
 }
 
+/// True if every seam is sure and none is missing.
+pub fn is_closed(worn: &[Worn], seams: &[ProposedSeam]) -> bool {
+    seams.iter().all(is_sure) && lacking(worn, seams).is_empty()
+}
+
 /// Remarks on what keeps pieces from closing on the body: missing seams, and a piece that is sewn to nothing.
 pub fn lacking(worn: &[Worn], seams: &[ProposedSeam]) -> Vec<String> {
     let needed = needed(worn);

@@ -34,7 +34,7 @@ const SMOOTH_DEG: f64 = 12.0;
 /// Angle inside a part from which a corner may be the point of a dart.
 const DART_DEG: f64 = 270.0;
 /// Greatest difference of the legs of a dart.
-const LEGS_MM: f64 = 1.5;
+const LEGS_M: f64 = 1.5e-3;
 
 pub struct Evidence {
     pub shape: Vec<[f32; SHAPE]>,
@@ -42,6 +42,7 @@ pub struct Evidence {
     pub said: Vec<[f32; SAID]>,
 }
 
+/// In mm.
 struct Extent {
     area: f64,
     perimeter: f64,
@@ -62,7 +63,7 @@ pub fn evidence(parts: &[Part], stretches: &[Stretch], symmetry: &Symmetry) -> E
         let around = Around { stretches, symmetry, index };
         let mut numbers: Vec<f32> = around.numbers();
         numbers.extend([
-            (stretch.length / extent.perimeter) as f32,
+            (mm(stretch.length) / extent.perimeter) as f32,
             ((extent.area / 1e5).ln() / 2.0) as f32,
             ((extent.perimeter / 1e3).ln()) as f32,
             (4.0 * std::f64::consts::PI * extent.area / extent.perimeter.powi(2)) as f32,
@@ -124,8 +125,8 @@ impl Around<'_> {
             stretch.notches.first().map_or(0.0, |arc| (arc / stretch.length) as f32),
         ];
         let own = [
-            ((stretch.length / 100.0).ln() / 2.0) as f32,
-            (stretch.length / 500.0) as f32,
+            ((mm(stretch.length) / 100.0).ln() / 2.0) as f32,
+            (mm(stretch.length) / 500.0) as f32,
             (stretch.chord / stretch.length) as f32,
             (stretch.turn / 180.0) as f32,
         ];
@@ -135,14 +136,14 @@ impl Around<'_> {
     /// True if this and a neighbour around a corner of `angle` are as long as each other, around a reflex corner.
     fn is_leg(&self, neighbour: usize, angle: f64) -> bool {
         let difference = self.stretches[self.index].length - self.stretches[neighbour].length;
-        angle > DART_DEG && difference.abs() < LEGS_MM && neighbour != self.index
+        angle > DART_DEG && difference.abs() < LEGS_M && neighbour != self.index
     }
 }
 
 /// As the part is drawn. Another turn of the part swaps or negates these.
 fn place(stretch: &Stretch, extent: &Extent) -> [f32; PLACE] {
     let longer = extent.size.max().max(f64::MIN_POSITIVE);
-    let middle = (stretch.middle - extent.low - 0.5 * extent.size) * 2.0 / longer;
+    let middle = (stretch.middle.map(mm) - extent.low - 0.5 * extent.size) * 2.0 / longer;
     [
         middle.x as f32,
         middle.y as f32,
@@ -169,7 +170,7 @@ fn said(part: &Part) -> [f32; SAID] {
 /// Symmetric but for the order of the two: `pair(a, b)` and `pair(b, a)` are averaged by the network.
 pub fn pair(stretches: &[Stretch], symmetry: &Symmetry, i: usize, j: usize) -> [f32; PAIR] {
     let (a, b) = (&stretches[i], &stretches[j]);
-    let (difference, mean) = ((a.length - b.length).abs(), 0.5 * (a.length + b.length));
+    let (difference, mean) = (mm((a.length - b.length).abs()), mm(0.5 * (a.length + b.length)));
     let ratio = (a.length / b.length).ln();
     let [mirror, complement] = profile_distances(a, b);
     let near = |value: f64, scale: f64| (-value / scale).exp() as f32;
@@ -226,7 +227,7 @@ fn profile_distances(a: &Stretch, b: &Stretch) -> [f64; 2] {
 }
 
 /// Greatest distance of matched notches. Of twenty notches nineteen lie within half a millimetre of their partner.
-const MATCHED_MM: f64 = 2.0;
+const MATCHED_M: f64 = 2e-3;
 
 /// Share of the notches of both that lie as far from one end as one of the other, and their number in thirds.
 fn notches(a: &Stretch, b: &Stretch) -> [f32; 2] {
@@ -237,7 +238,7 @@ fn notches(a: &Stretch, b: &Stretch) -> [f32; 2] {
     let is_matched = |arc: f64, length: f64, other: &Stretch| {
         let is_near = |from_start: f64| {
             let from_end = other.length - from_start;
-            (arc - from_end).abs().min((length - arc - from_start).abs()) < MATCHED_MM
+            (arc - from_end).abs().min((length - arc - from_start).abs()) < MATCHED_M
         };
         other.notches.iter().any(|&from_start| is_near(from_start))
     };

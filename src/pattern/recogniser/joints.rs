@@ -2,7 +2,7 @@
 //!
 //! Around an inner vertex of cloth that lies flat the angles sum to 360 degrees, along the boundary mostly to 180.
 
-use super::network::{Fact, Facts};
+use super::facts::{Fact, Facts};
 use super::stretch::Stretch;
 
 /// Numbers of a pair: six of each end, and whether both parts are joined already.

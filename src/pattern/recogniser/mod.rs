@@ -4,15 +4,17 @@
 //! weighs the [`evidence`] of each pair among all others.
 
 pub mod evidence;
+pub mod facts;
 mod joints;
 pub mod network;
 pub mod settle;
 pub mod stretch;
 pub mod symmetry;
+#[cfg(test)]
+mod tests;
 
 pub use self::stretch::Part;
 use crate::piece::Piece;
-use crate::propose::told;
 use crate::style::corners::corner_vertices;
 pub use crate::trade::Named;
 
@@ -39,9 +41,4 @@ pub fn corners(piece: &Piece) -> Vec<usize> {
     }
     corners.sort_unstable();
     corners
-}
-
-/// What names and texts of the pieces say.
-pub fn named(pieces: &[Piece]) -> Vec<Named> {
-    told::told(pieces).into_iter().map(told::Told::all).collect()
 }

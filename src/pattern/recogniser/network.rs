@@ -4,10 +4,10 @@
 //! pairs are scored, with what the round before found of them, of their neighbours and of their rivals, and each
 //! stretch hears of its likely partners. `examples/recogniser/fit.py` fits the weights.
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
 use super::evidence::{self, CLASSES, Evidence, PAIR, PLACE, SAID, SHAPE};
+use super::facts::Facts;
 use super::joints::{JOINTS, Joints};
 use super::stretch::{Part, Stretch, stretches};
 use super::symmetry::{Symmetry, symmetry};
@@ -18,6 +18,7 @@ const RANK: usize = 16;
 const ROUNDS: usize = 3;
 /// Width of the first layer that scores a pair.
 const SCORE: usize = 32;
+const SECOND: usize = 16;
 /// Numbers of a pair that a round hands to the next.
 const HANDED: usize = 9;
 
@@ -93,53 +94,6 @@ impl Likelihoods {
 
     pub fn free(&self, from: usize) -> f64 {
         self.of(from, self.count)
-    }
-}
-
-/// Statement about a stretch that is heard, and not weighed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fact {
-    Sewn(usize),
-    Free,
-}
-
-/// Statements about stretches.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Facts {
-    of: BTreeMap<usize, Fact>,
-    /// Pairs, the lower index first, that are not sewn to each other.
-    apart: BTreeSet<[usize; 2]>,
-}
-
-impl Facts {
-    pub fn of(&self, stretch: usize) -> Option<Fact> {
-        self.of.get(&stretch).copied()
-    }
-
-    pub fn sew(&mut self, a: usize, b: usize) {
-        self.of.extend([(a, Fact::Sewn(b)), (b, Fact::Sewn(a))]);
-    }
-
-    pub fn free(&mut self, stretch: usize) {
-        self.of.insert(stretch, Fact::Free);
-    }
-
-    pub fn part(&mut self, a: usize, b: usize) {
-        self.apart.insert([a.min(b), a.max(b)]);
-    }
-
-    pub fn may_be_sewn(&self, a: usize, b: usize) -> bool {
-        a != b && self.of(a).is_none() && self.of(b).is_none() && !self.apart.contains(&[a.min(b), a.max(b)])
-    }
-
-    /// Row of likelihoods of a stretch with a statement.
-    fn row(&self, stretch: usize, count: usize) -> Option<Vec<f32>> {
-        let mut row = vec![0.0; count + 1];
-        row[match self.of(stretch)? {
-            Fact::Sewn(other) => other,
-            Fact::Free => count,
-        }] = 1.0;
-        Some(row)
     }
 }
 
@@ -223,7 +177,7 @@ impl Network {
             message: reader.layers(&[WIDTH, WIDTH]),
             rank: reader.layers(&[WIDTH, 2 * RANK]),
             score: reader.layers(&[PAIR + RANK + HANDED + JOINTS, SCORE]),
-            second: reader.layers(&[SCORE, 16, 1]),
+            second: reader.layers(&[SCORE, SECOND, 1]),
             own: reader.layers(&[WIDTH, SCORE]),
             update: reader.layers(&[8 * WIDTH + 1, 64, WIDTH]),
         };
@@ -248,7 +202,7 @@ impl Network {
         let mut found = Found { rows: (0..count).flat_map(stated).collect(), count };
         let mut handed = found.handed(&vec![0.0; count * count], stretches, symmetry);
         for round in &self.rounds {
-            let scores = round.scores(&state, pairs, &handed, &joints);
+            let scores = round.scores(&state, &Pairs { drawn: pairs, handed: &handed, joints: &joints, facts });
             found = Found { rows: round.rows(&state, &scores, &found, facts), count };
             handed = found.handed(&scores, stretches, symmetry);
             let messages: Vec<Vec<f32>> = state.rows.iter().map(|row| dense(&round.message, row.clone())).collect();
@@ -355,32 +309,51 @@ impl State<'_> {
     }
 }
 
+/// Evidence of all pairs in a round.
+struct Pairs<'p> {
+    drawn: &'p [[f32; PAIR]],
+    handed: &'p [[f32; HANDED]],
+    joints: &'p Joints,
+    facts: &'p Facts,
+}
+
 impl Round {
-    /// Of each pair, the same in both directions.
-    fn scores(&self, state: &State<'_>, pairs: &[[f32; PAIR]], handed: &[[f32; HANDED]], joints: &Joints) -> Vec<f32> {
+    /// Of each pair that may be sewn, the same in both directions.
+    fn scores(&self, state: &State<'_>, pairs: &Pairs<'_>) -> Vec<f32> {
         let count = state.rows.len();
         let ranks: Vec<Vec<f32>> = state.rows.iter().map(|row| dense(&self.rank, row.clone())).collect();
         let own: Vec<Vec<f32>> = state.rows.iter().map(|row| dense(&self.own, row.clone())).collect();
-        let score = &self.score[0];
         let mut inputs = [0.0; PAIR + RANK + HANDED + JOINTS];
-        let mut directed = vec![0.0; count * count];
+        let mut directed = |i: usize, j: usize| {
+            let at = i * count + j;
+            inputs[..PAIR].copy_from_slice(&pairs.drawn[at]);
+            for k in 0..RANK {
+                inputs[PAIR + k] = ranks[i][k] * ranks[j][RANK + k] + ranks[i][RANK + k] * ranks[j][k];
+            }
+            inputs[PAIR + RANK..PAIR + RANK + HANDED].copy_from_slice(&pairs.handed[at]);
+            inputs[PAIR + RANK + HANDED..].copy_from_slice(&pairs.joints.of_pair(i, j));
+            let mut first = [0.0; SCORE];
+            for (k, sum) in first.iter_mut().enumerate() {
+                *sum = self.score[0].offsets[k] + own[i][k] + own[j][k];
+            }
+            self.score[0].add(&inputs, &mut first);
+            rectify(&mut first);
+            let mut second = [0.0; SECOND];
+            second.copy_from_slice(&self.second[0].offsets);
+            self.second[0].add(&first, &mut second);
+            rectify(&mut second);
+            let mut last = [self.second[1].offsets[0]];
+            self.second[1].add(&second, &mut last);
+            last[0]
+        };
+        let mut scores = vec![0.0; count * count];
         for i in 0..count {
-            for j in (0..count).filter(|&j| j != i) {
-                let at = i * count + j;
-                inputs[..PAIR].copy_from_slice(&pairs[at]);
-                for k in 0..RANK {
-                    inputs[PAIR + k] = ranks[i][k] * ranks[j][RANK + k] + ranks[i][RANK + k] * ranks[j][k];
-                }
-                inputs[PAIR + RANK..PAIR + RANK + HANDED].copy_from_slice(&handed[at]);
-                inputs[PAIR + RANK + HANDED..].copy_from_slice(&joints.of_pair(i, j));
-                let mut sums: Vec<f32> = score.offsets.clone();
-                score.add(&inputs, &mut sums);
-                sums.iter_mut().zip(&own[i]).zip(&own[j]).for_each(|((sum, a), b)| *sum += a + b);
-                rectify(&mut sums);
-                directed[at] = dense(&self.second, sums)[0];
+            for j in (i + 1..count).filter(|&j| pairs.facts.may_be_sewn(i, j)) {
+                let score = 0.5 * (directed(i, j) + directed(j, i));
+                (scores[i * count + j], scores[j * count + i]) = (score, score);
             }
         }
-        (0..count * count).map(|at| 0.5 * (directed[at] + directed[at % count * count + at / count])).collect()
+        scores
     }
 
     /// Likelihoods by the scores of the partners and of staying free.

@@ -1,6 +1,7 @@
 //! Seams of a garment, the surest first: what is sure is stated to the network, which then weighs the rest anew.
 
-use super::network::{Fact, Facts, Garment, Likelihoods};
+use super::facts::{Fact, Facts};
+use super::network::{Garment, Likelihoods};
 
 /// Likelihood from which a seam is stated at once. Below it, the likeliest are stated first.
 const SURE: f64 = 0.95;
@@ -9,6 +10,8 @@ const TOGETHER: f64 = 0.8;
 
 /// Most seams that are tried to join what falls apart, and most that are taken.
 const MOST_BRIDGES: usize = 6;
+/// Greatest difference in length of a seam that is tried to join parts: what is sewn plain.
+const EVEN: f64 = 0.02;
 /// Likelihood below which a pair is not looked at.
 const LEAST: f64 = 1e-6;
 /// Likelihood from which a pair is compared with what exchanges of equal parts would make of it.
@@ -22,6 +25,12 @@ pub struct Found {
     pub likelihood: f64,
     /// The same, or that of any seam which differs by an exchange of equal parts.
     pub confidence: f64,
+}
+
+impl Found {
+    fn is_of(&self, a: usize, b: usize) -> bool {
+        (self.a, self.b) == (a, b) || (self.a, self.b) == (b, a)
+    }
 }
 
 pub struct Settled {
@@ -43,19 +52,26 @@ pub fn seams(garment: &Garment, facts: &Facts) -> Settled {
         let joined = Joined::of(garment, &best.seams);
         let left: Vec<usize> = (0..garment.stretches.len()).filter(|&k| facts.of(k).is_none()).collect();
         let mut bridges = pairs(garment, &facts, &left, &first);
-        bridges.retain(|bridge| joined.joins(bridge));
+        let length = |k: usize| garment.stretches[k].length;
+        let is_even = |a: f64, b: f64| (a - b).abs() < EVEN * a.max(b);
+        bridges.retain(|bridge| joined.joins(bridge) && is_even(length(bridge.a), length(bridge.b)));
         bridges.truncate(MOST_BRIDGES);
         let tried = bridges.iter().map(|bridge| {
             let mut facts = facts.clone();
             facts.sew(bridge.a, bridge.b);
             let twins = garment.symmetry.twin[bridge.a].zip(garment.symmetry.twin[bridge.b]);
-            if let Some((a, b)) = twins.filter(|&(a, b)| facts.may_be_sewn(a, b)) {
-                facts.sew(a, b);
+            let twins = twins.filter(|&(a, b)| facts.may_be_sewn(a, b));
+            twins.into_iter().for_each(|(a, b)| facts.sew(a, b));
+            let mut tried = settled(garment, &facts);
+            let is_tried =
+                |seam: &Found| seam.is_of(bridge.a, bridge.b) || twins.is_some_and(|(a, b)| seam.is_of(a, b));
+            for seam in tried.seams.iter_mut().filter(|seam| is_tried(seam)) {
+                (seam.likelihood, seam.confidence) = (bridge.likelihood, bridge.likelihood);
             }
-            (settled(garment, &facts), facts)
+            (tried, facts)
         });
         let better = tried.filter(|(tried, _)| tried.components(garment) < apart);
-        let Some((next, with)) = better.max_by(|(p, _), (q, _)| p.mean().total_cmp(&q.mean())) else { break };
+        let Some((next, with)) = better.max_by(|(p, _), (q, _)| p.evidence().total_cmp(&q.evidence())) else { break };
         (best, facts) = (next, with);
     }
     best
@@ -66,7 +82,9 @@ fn settled(garment: &Garment, facts: &Facts) -> Settled {
     let mut settled = Settled { seams: Vec::new(), free: vec![0.0; count] };
     for k in 0..count {
         match facts.of(k) {
-            Some(Fact::Sewn(other)) if k < other => settled.seams.push(Found { a: k, b: other, likelihood: 1.0, confidence: 1.0 }),
+            Some(Fact::Sewn(other)) if k < other => {
+                settled.seams.push(Found { a: k, b: other, likelihood: 1.0, confidence: 1.0 })
+            }
             Some(Fact::Free) => settled.free[k] = 1.0,
             _ => {}
         }
@@ -107,10 +125,10 @@ impl Settled {
         (0..joined.heads.len()).filter(|&part| joined.heads[part] == part).count()
     }
 
-    /// Mean of the likelihoods of all stretches.
-    fn mean(&self) -> f64 {
-        let sewn: f64 = self.seams.iter().map(|seam| 2.0 * seam.likelihood).sum();
-        (sewn + self.free.iter().sum::<f64>()) / self.free.len() as f64
+    /// Sum of the logarithms of the likelihoods of all stretches.
+    pub fn evidence(&self) -> f64 {
+        let sewn = self.seams.iter().map(|seam| 2.0 * seam.likelihood.max(LEAST).ln());
+        sewn.chain(self.free.iter().filter(|free| **free > 0.0).map(|free| free.ln())).sum()
     }
 }
 

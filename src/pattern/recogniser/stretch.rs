@@ -1,17 +1,16 @@
-//! Outlines divided into stretches between corners, each with its geometry. Lengths are in mm, angles in degrees.
+//! Outlines divided into stretches between corners, each with its geometry. Angles are in degrees.
 
 use geom::V2;
 use geom::polyline::{Polyline, boundary_distance};
-use geom::units::mm;
 
 use crate::trade::Named;
 
 /// Number of directions that describe how a stretch bends.
 pub const SAMPLES: usize = 16;
 /// Length over which the direction at a corner is taken: shorter than the smallest rounding that is no corner.
-const TANGENT_MM: f64 = 4.0;
+const TANGENT_M: f64 = 4e-3;
 /// Greatest distance of a notch from the stretch that it marks.
-const ON_EDGE_MM: f64 = 12.0;
+const ON_EDGE_M: f64 = 12e-3;
 
 /// Piece as worn, seen from outside.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +38,9 @@ impl Part {
     }
 }
 
+/// Difference of distances that counts as none.
+const SAME_PLACE_M: f64 = 0.5e-3;
+
 /// Part of an outline between two corners, run counter-clockwise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stretch {
@@ -47,7 +49,9 @@ pub struct Stretch {
     pub at: usize,
     pub next: usize,
     pub previous: usize,
+    /// m.
     pub length: f64,
+    /// m.
     pub chord: f64,
     /// Directions at equal steps, less their mean.
     pub profile: [f64; SAMPLES],
@@ -57,10 +61,11 @@ pub struct Stretch {
     pub start_angle: f64,
     /// Angle inside the part at the corner where it ends.
     pub end_angle: f64,
+    /// m.
     pub middle: V2,
     /// Unit vector to the right of the chord: out of the part.
     pub outward: V2,
-    /// Arc lengths of notches.
+    /// Arc lengths of notches, m.
     pub notches: Vec<f64>,
 }
 
@@ -102,7 +107,6 @@ fn of_part(part: &Part, index: usize, first: usize) -> Vec<Stretch> {
     lines.iter().enumerate().map(one).collect()
 }
 
-/// In mm.
 fn line(part: &Part, at: usize) -> Option<Polyline> {
     let n = part.outline.len();
     let (from, to) = (part.corners[at], part.corners[(at + 1) % part.corners.len()]);
@@ -110,7 +114,7 @@ fn line(part: &Part, at: usize) -> Option<Polyline> {
         0 => n,
         steps => steps,
     };
-    Polyline::new((0..=steps).map(|step| part.outline[(from + step) % n].map(mm)).collect())
+    Polyline::new((0..=steps).map(|step| part.outline[(from + step) % n]).collect())
 }
 
 fn direction(line: &Polyline, from: f64, to: f64) -> V2 {
@@ -123,7 +127,7 @@ fn turn(u: &V2, v: &V2) -> f64 {
 }
 
 fn inner_angle(before: &Polyline, after: &Polyline) -> f64 {
-    let step = |line: &Polyline| TANGENT_MM.min(0.5 * line.length());
+    let step = |line: &Polyline| TANGENT_M.min(0.5 * line.length());
     let arriving = direction(before, before.length() - step(before), before.length());
     180.0 - turn(&arriving, &direction(after, 0.0, step(after)))
 }
@@ -144,17 +148,15 @@ fn notches(part: &Part, line: &Polyline) -> Vec<f64> {
     let nearest = |at: V2| {
         let sides = line.points().windows(2).zip(line.arcs()).map(|(ends, arc)| {
             let along = ends[1] - ends[0];
-            let share = ((at - ends[0]).dot(&along) / along.norm_squared().max(1e-12)).clamp(0.0, 1.0);
+            let share = ((at - ends[0]).dot(&along) / along.norm_squared().max(1e-18)).clamp(0.0, 1.0);
             ((ends[0] + along * share - at).norm(), arc + share * along.norm())
         });
         sides.min_by(|p, q| p.0.total_cmp(&q.0))
     };
-    let outline: Vec<V2> = part.outline.iter().map(|point| point.map(mm)).collect();
-    let marks = part.notches.iter().map(|at| at.map(mm));
-    let of_line = marks.filter_map(|at| {
+    let of_line = part.notches.iter().filter_map(|&at| {
         let (distance, arc) = nearest(at)?;
-        let is_here = distance < ON_EDGE_MM && distance < boundary_distance(&outline, &at) + 0.5;
-        let is_inside = (ON_EDGE_MM..line.length() - ON_EDGE_MM).contains(&arc);
+        let is_here = distance < ON_EDGE_M && distance < boundary_distance(&part.outline, &at) + SAME_PLACE_M;
+        let is_inside = (ON_EDGE_M..line.length() - ON_EDGE_M).contains(&arc);
         (is_here && is_inside).then_some(arc)
     });
     let mut arcs: Vec<f64> = of_line.collect();

@@ -1,13 +1,12 @@
 //! Congruent parts: mirror images, halves of one symmetric part, and equal copies.
 
 use geom::V2;
-use geom::units::mm;
 
 use super::stretch::{Part, Stretch};
 
 /// Greatest difference of corresponding lengths and points. Files round to hundredths of a millimetre, and drawn mirror
 /// images are often redrawn.
-const SAME_MM: f64 = 1.0;
+const SAME_M: f64 = 1e-3;
 
 /// Correspondences between stretches. Mirror images run backwards.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -26,7 +25,7 @@ pub struct Symmetry {
     pub twin_part: Vec<Option<usize>>,
 }
 
-/// Corner and middle of each stretch, mm.
+/// Corner and middle of each stretch, m.
 struct Frame {
     first: usize,
     lengths: Vec<f64>,
@@ -36,7 +35,8 @@ struct Frame {
 
 pub fn symmetry(parts: &[Part], stretches: &[Stretch]) -> Symmetry {
     let frames: Vec<Frame> = (0..parts.len()).map(|part| frame(part, &parts[part], stretches)).collect();
-    let mut found = Symmetry { own: vec![None; stretches.len()], twin: vec![None; stretches.len()], ..Symmetry::default() };
+    let mut found =
+        Symmetry { own: vec![None; stretches.len()], twin: vec![None; stretches.len()], ..Symmetry::default() };
     for (i, frame) in frames.iter().enumerate() {
         let n = frame.lengths.len();
         let first = (0..i).find_map(|j| Some((j, equal(&frames[j], frame)?)));
@@ -79,7 +79,7 @@ fn frame(part: usize, drawn: &Part, stretches: &[Stretch]) -> Frame {
     Frame {
         first,
         lengths: own.iter().map(|stretch| stretch.length).collect(),
-        corners: drawn.corners.iter().map(|&corner| drawn.outline[corner].map(mm)).collect(),
+        corners: drawn.corners.iter().map(|&corner| drawn.outline[corner]).collect(),
         middles: own.iter().map(|stretch| stretch.middle).collect(),
     }
 }
@@ -89,7 +89,7 @@ fn equal(a: &Frame, b: &Frame) -> Option<usize> {
     let n = a.lengths.len();
     let fits = |shift: &usize| {
         let to = |k: usize| (k + shift) % n;
-        let is_long = (0..n).all(|k| (a.lengths[k] - b.lengths[to(k)]).abs() < SAME_MM);
+        let is_long = (0..n).all(|k| (a.lengths[k] - b.lengths[to(k)]).abs() < SAME_M);
         is_long && is_rigid((0..n).flat_map(|k| [(a.corners[k], b.corners[to(k)]), (a.middles[k], b.middles[to(k)])]))
     };
     if n == b.lengths.len() { (0..n).find(fits) } else { None }
@@ -105,10 +105,9 @@ fn mirrored(a: &Frame, b: &Frame) -> Option<Vec<(usize, usize)>> {
     let turned = |point: V2| V2::new(-point.x, point.y);
     let fits = |shift: &usize| {
         let to = |k: usize| (shift + n - k) % n;
-        let is_long = (0..n).all(|k| (a.lengths[k] - b.lengths[to(k)]).abs() < SAME_MM);
-        let points = |k: usize| {
-            [(a.corners[k], turned(b.corners[(to(k) + 1) % n])), (a.middles[k], turned(b.middles[to(k)]))]
-        };
+        let is_long = (0..n).all(|k| (a.lengths[k] - b.lengths[to(k)]).abs() < SAME_M);
+        let points =
+            |k: usize| [(a.corners[k], turned(b.corners[(to(k) + 1) % n])), (a.middles[k], turned(b.middles[to(k)]))];
         is_long && is_rigid((0..n).flat_map(points))
     };
     let shift = (0..n).find(fits)?;
@@ -125,5 +124,5 @@ fn is_rigid(pairs: impl Iterator<Item = (V2, V2)>) -> bool {
     let (cos, sin) = centred().fold((0.0, 0.0), |(cos, sin), (p, q)| (cos + q.dot(&p), sin + q.perp(&p)));
     let size = cos.hypot(sin).max(f64::MIN_POSITIVE);
     let (cos, sin) = (cos / size, sin / size);
-    centred().all(|(p, q)| (V2::new(cos * q.x - sin * q.y, sin * q.x + cos * q.y) - p).norm() < SAME_MM)
+    centred().all(|(p, q)| (V2::new(cos * q.x - sin * q.y, sin * q.x + cos * q.y) - p).norm() < SAME_M)
 }

@@ -21,6 +21,8 @@ const SLIGHT_TURN_DEG: f64 = 20.0;
 const CLEAR_TURN_DEG: f64 = 20.0;
 /// Least share of the turning angle of a vertex by which its neighbour on the same curve turns.
 const SAME_CURVE: f64 = 0.5;
+/// Most vertices of an outline that has no sampled curve.
+const FEW: usize = 8;
 /// Length within which a rounded corner turns: a quarter of a circle of 15 mm radius.
 const ROUNDED_M: f64 = 24e-3;
 /// Turning angle within [`ROUNDED_M`] from which an outline has a rounded corner.
@@ -45,7 +47,8 @@ pub(crate) fn corner_vertices(piece: &Piece) -> Vec<usize> {
     let distinct: BTreeSet<usize> = marked.iter().copied().collect();
     // Some writers mark every vertex as a turn point. On curves the marks then carry no information.
     let on_curves = || (0..outline.len()).filter(|&i| is_on_curve(outline, i)).count();
-    if distinct.len() >= 2 && (distinct.len() < outline.len() || 2 * on_curves() < outline.len()) {
+    let is_told = distinct.len() < outline.len() || outline.len() <= FEW || 2 * on_curves() < outline.len();
+    if distinct.len() >= 2 && is_told {
         let mut corners: Vec<usize> = with_unmarked(outline, distinct).into_iter().collect();
         let start = corners.iter().position(|&vertex| vertex == marked[0]).unwrap_or(0);
         corners.rotate_left(start);
@@ -81,8 +84,9 @@ fn rounded_corners(outline: &[V2]) -> Vec<usize> {
     };
     let turns: Vec<f64> = (0..n).map(turn).collect();
     let is_corner = |i: usize| turns[i % n] >= ROUNDED_TURN_DEG;
-    let starts = (0..n).filter(|&i| is_corner(i) && !is_corner(i + n - 1));
-    starts.map(|start| (start + (0..n).take_while(|k| is_corner(start + k)).count() / 2) % n).collect()
+    let goes_on = |i: usize| is_corner(i) && is_corner(i + 1) && step(i) < 0.5 * ROUNDED_M;
+    let starts = (0..n).filter(|&i| is_corner(i) && !goes_on(i + n - 1));
+    starts.map(|start| (start + (0..n).take_while(|k| goes_on(start + k)).count().div_ceil(2)) % n).collect()
 }
 
 /// True if a vertex turns no more than a curve that continues at a neighbour: programs mark grade points along an edge
