@@ -199,7 +199,7 @@ impl Table<'_> {
         doubtful.max_by(|&a, &b| cost(a).total_cmp(&cost(b)).then(b.cmp(&a)))
     }
 
-    /// What a stretch may be sewn to, the partner in effect first. `None` stands for staying free.
+    /// Possible partners of a stretch, the one in effect first. `None` stands for staying free.
     fn partners(&self, stretch: usize, likely: &Likelihoods, settled: &Settled) -> Vec<Option<usize>> {
         let of_found = |found: &Found| match stretch {
             k if k == found.a => Some(found.b),
@@ -364,7 +364,7 @@ struct Place {
     confidence: f64,
 }
 
-/// What an edge is by what it is sewn to. `None` where that does not tell.
+/// Kind of an edge by what it is sewn to. `None` where that does not tell.
 fn label(own: Place, partner: Option<Place>) -> Option<Label> {
     let is_of = |classes: &[Class]| partner.is_some_and(|partner| classes.contains(&partner.class));
     let is_across = partner.is_some_and(|partner| partner.face == own.face && partner.hand != own.hand);
