@@ -214,10 +214,15 @@ impl<'a> Asker<'a> {
         choices: impl IntoIterator<Item = S>,
         stands: Option<usize>,
     ) -> Option<usize> {
-        if !self.is_answered(&text) {
-            self.unsettled.push(text.clone());
-        }
+        self.require(&text);
         self.ask(text, choices, stands)
+    }
+
+    /// Marks a question as one to be answered before anything is draped.
+    pub fn require(&mut self, text: &str) {
+        if !self.is_answered(text) {
+            self.unsettled.push(text.to_owned());
+        }
     }
 }
 

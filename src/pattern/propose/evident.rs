@@ -9,7 +9,7 @@ use super::{Class, Face, Hand, Label, ProposedSeam, SeamKind, role_of};
 use crate::piece::Piece;
 use crate::recogniser::facts::Facts;
 use crate::recogniser::network::{Garment, Kind, Likelihoods};
-use crate::recogniser::settle::{self, Found};
+use crate::recogniser::settle::{self, Found, Settled};
 use crate::recogniser::{self, Part};
 use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, Ease, PieceEntry, SeamEntry};
 use crate::style::correspond::shares;
@@ -41,9 +41,11 @@ pub struct Evident {
     pub open: Vec<String>,
     /// Share of the outlines whose partner, or whose being free, is likelier than [`DOUBTED`].
     pub surety: f64,
+    /// Texts of the questions about edges, each with its edge where that is of a piece in a seam.
+    pub asked: Vec<(String, Option<String>)>,
 }
 
-/// A piece as it is cut once.
+/// A piece as it is worn.
 #[derive(Clone, Copy)]
 struct Copy {
     piece: usize,
@@ -58,7 +60,7 @@ pub fn evident(
     asker: &mut Asker<'_>,
 ) -> Option<Evident> {
     let drawn = recogniser::parts(pieces, named);
-    let copies: Vec<Copy> = (0..pieces.len()).filter(|&k| is_worn(k)).flat_map(|k| copies(pieces, k)).collect();
+    let copies = (0..pieces.len()).filter(|&k| is_worn(k)).map(|piece| Copy { piece, is_mirror: false }).collect();
     let ways = ways(&drawn, copies);
     let weighed = ways.into_iter().map(|(cost, copies, parts)| {
         let garment = Garment::of(&parts);
@@ -69,8 +71,12 @@ pub fn evident(
     let best = weighed.reduce(|best, way| if way.0 > best.0 { way } else { best });
     let (_, copies, parts, garment) = best.filter(|(_, _, _, garment)| !garment.stretches.is_empty())?;
     let table = Table { pieces, copies: &copies, parts: &parts, garment: &garment };
-    let (settled, likely) = table.settled(asker);
-    (!settled.found.is_empty()).then(|| table.sewn(named, &settled, &likely))
+    let (settled, asked) = table.settled(asker);
+    if settled.seams.is_empty() {
+        return None;
+    }
+    table.ask_left_out(&settled, asker);
+    Some(table.sewn(named, &settled, asked))
 }
 
 /// Number of seams between a front of one hand and a back of the other.
@@ -111,14 +117,6 @@ pub fn is_drawn_whole(pieces: &[Piece], is_worn: impl Fn(usize) -> bool) -> bool
     (0..pieces.len()).filter(|&k| is_worn(k)).all(|k| is_whole(&pieces[k]))
 }
 
-/// By the quantity: pairs are mirror images.
-fn copies(pieces: &[Piece], piece: usize) -> Vec<Copy> {
-    let Cutting { times, on_fold } = Cutting::of(&pieces[piece]);
-    let is_half = on_fold && pieces[piece].beside.fold.is_none();
-    let times = if is_half { 2 } else { times.unwrap_or(1).clamp(1, 24) };
-    (0..times).map(|time| Copy { piece, is_mirror: time % 2 == 1 }).collect()
-}
-
 fn as_worn(part: &Part, is_mirror: bool) -> Part {
     if is_mirror { part.mirrored() } else { part.clone() }
 }
@@ -128,11 +126,6 @@ struct Table<'t> {
     copies: &'t [Copy],
     parts: &'t [Part],
     garment: &'t Garment,
-}
-
-struct Settled {
-    found: Vec<Found>,
-    free: Vec<f64>,
 }
 
 impl Table<'_> {
@@ -145,31 +138,30 @@ impl Table<'_> {
 
     /// Stretch for a person to find in the picture.
     fn name(&self, stretch: usize) -> String {
-        let part = self.garment.stretches[stretch].part;
-        let copy = self.copies[part];
-        let which = self.copies[..part].iter().filter(|other| other.piece == copy.piece).count();
-        let is_one = self.copies.iter().filter(|other| other.piece == copy.piece).count() == 1;
-        let which = if is_one { String::new() } else { format!(" (copy {})", which + 1) };
-        format!("edge {} of `{}`{which}", self.number(stretch), reference(self.pieces, copy.piece))
+        let piece = self.copies[self.garment.stretches[stretch].part].piece;
+        format!("edge {} of `{}`", self.number(stretch), reference(self.pieces, piece))
     }
 
-    /// Asks about what is doubtful, and hears the answers.
-    fn settled(&self, asker: &mut Asker<'_>) -> (Settled, Likelihoods) {
-        let (mut facts, mut asked, mut open) = (Facts::default(), Vec::new(), 0);
+    /// Asks about what is doubtful, and hears the answers. Returns also the stretches asked about, with the texts.
+    fn settled(&self, asker: &mut Asker<'_>) -> (Settled, Vec<(String, usize)>) {
+        let (mut facts, mut asked, mut told, mut open) = (Facts::default(), Vec::new(), Vec::new(), 0);
         let first = self.garment.likelihoods(&facts);
         loop {
-            let settled = self.settle(&facts);
+            let settled = settle::seams(self.garment, &facts);
             let doubt = if open < MOST_ASKED { self.doubt(&settled, &asked) } else { None };
-            let Some(stretch) = doubt else { return (settled, first) };
-            let partners = self.partners(stretch, &first, &settled);
-            asked.extend([Some(stretch), partners[0]].into_iter().flatten());
+            let Some(stretch) = doubt else { return (settled, told) };
+            let partner = settled.partner(stretch);
+            asked.extend([Some(stretch), partner].into_iter().flatten());
             let text = format!("what is sewn to {}?", self.name(stretch));
-            let choices: Vec<String> = partners
-                .iter()
-                .map(|partner| partner.map_or_else(|| "nothing: it stays open".to_owned(), |k| self.name(k)))
-                .collect();
+            let partners = self.partners(stretch, &first, partner);
+            let choice = |partner: &Option<usize>| match partner {
+                Some(k) => self.name(*k),
+                None => "nothing: it stays open".to_owned(),
+            };
+            let stands = partners.iter().position(|offered| *offered == partner);
             let is_answered = asker.is_answered(&text);
-            let taken = asker.ask_at(Vec::new(), text, choices, Some(0));
+            let taken = asker.ask_at(Vec::new(), text.clone(), partners.iter().map(choice), stands);
+            told.push((text, stretch));
             match taken.filter(|_| is_answered).and_then(|choice| partners.get(choice)) {
                 Some(&Some(partner)) => facts.sew(stretch, partner),
                 Some(None) => facts.free(stretch),
@@ -178,17 +170,24 @@ impl Table<'_> {
         }
     }
 
-    fn settle(&self, facts: &Facts) -> Settled {
-        let settled = settle::seams(self.garment, facts);
-        Settled { found: settled.seams, free: settled.free }
+    fn is_sewn(&self, part: usize, settled: &Settled) -> bool {
+        let is_of = |k: usize| self.garment.stretches[k].part == part;
+        settled.seams.iter().any(|seam| is_of(seam.a) || is_of(seam.b))
+    }
+
+    /// Asks about each piece that is in no seam: nothing is draped before.
+    fn ask_left_out(&self, settled: &Settled, asker: &mut Asker<'_>) {
+        for (_, copy) in self.copies.iter().enumerate().filter(|&(part, _)| !self.is_sewn(part, settled)) {
+            let name = reference(self.pieces, copy.piece);
+            let text = format!("piece `{name}`: nothing was found that is sewn to it; what is it?");
+            asker.require(&text);
+            asker.ask_of([copy.piece], text, ["worn: its seams are to be written into the seam file"], None);
+        }
     }
 
     /// Stretch whose partner matters most and is least sure.
     fn doubt(&self, settled: &Settled, asked: &[usize]) -> Option<usize> {
-        let mut sure: Vec<f64> = settled.free.clone();
-        for found in &settled.found {
-            (sure[found.a], sure[found.b]) = (found.confidence, found.confidence);
-        }
+        let sure = settled.confidences();
         let length = |k: usize| self.garment.stretches[k].length;
         let is_asked = |k: usize| {
             let symmetry = &self.garment.symmetry;
@@ -199,40 +198,29 @@ impl Table<'_> {
         doubtful.max_by(|&a, &b| cost(a).total_cmp(&cost(b)).then(b.cmp(&a)))
     }
 
-    /// Possible partners of a stretch, the one in effect first. `None` stands for staying free.
-    fn partners(&self, stretch: usize, likely: &Likelihoods, settled: &Settled) -> Vec<Option<usize>> {
-        let of_found = |found: &Found| match stretch {
-            k if k == found.a => Some(found.b),
-            k if k == found.b => Some(found.a),
-            _ => None,
-        };
-        let mut partners = vec![settled.found.iter().find_map(of_found)];
+    /// Possible partners of a stretch, and that in effect if it is none of them. `None` stands for staying free. Their
+    /// order does not depend on other answers: an answer is kept by the number of its choice.
+    fn partners(&self, stretch: usize, first: &Likelihoods, partner: Option<usize>) -> Vec<Option<usize>> {
         let mut others: Vec<usize> = (0..self.garment.stretches.len()).filter(|&k| k != stretch).collect();
-        others.sort_by(|&a, &b| likely.of(stretch, b).total_cmp(&likely.of(stretch, a)));
-        let offered = others.into_iter().filter(|&k| likely.of(stretch, k) > OFFERED).take(MOST_OFFERED);
-        for partner in offered.map(Some).chain([None]) {
-            if !partners.contains(&partner) {
-                partners.push(partner);
-            }
+        others.sort_by(|&a, &b| first.of(stretch, b).total_cmp(&first.of(stretch, a)));
+        let offered = others.into_iter().filter(|&k| first.of(stretch, k) > OFFERED).take(MOST_OFFERED);
+        let mut partners: Vec<Option<usize>> = offered.map(Some).chain([None]).collect();
+        if !partners.contains(&partner) {
+            partners.push(partner);
         }
         partners
     }
 
-    fn sewn(&self, named: &[Named], settled: &Settled, likely: &Likelihoods) -> Evident {
-        let places = places(self.parts, &self.garment.symmetry.twin_part, &likely.kinds);
+    fn sewn(&self, named: &[Named], settled: &Settled, asked: Vec<(String, usize)>) -> Evident {
+        let kinds = self.garment.likelihoods(&Facts::default()).kinds;
+        let places = places(self.parts, &self.garment.symmetry.twin_part, &kinds);
         let named: Vec<Named> = self.copies.iter().map(|copy| named[copy.piece]).collect();
-        let is_bodice = places.iter().any(|place| is_below(place.class));
-        let sewn = |part: usize| {
-            settled
-                .found
-                .iter()
-                .any(|found| [found.a, found.b].into_iter().any(|k| self.garment.stretches[k].part == part))
-        };
-        let labels = self.labels(&places, &settled.found);
+        let is_bodice = places.iter().any(|place| matches!(place.class, Class::Skirt | Class::Leg | Class::Waistband));
+        let labels = self.labels(&places, &settled.seams);
         let mut worn: Vec<Worn> = Vec::new();
         let mut of_part: Vec<Option<usize>> = Vec::new();
         for (part, place) in places.iter().enumerate() {
-            if !sewn(part) {
+            if !self.is_sewn(part, settled) {
                 of_part.push(None);
                 continue;
             }
@@ -246,24 +234,22 @@ impl Table<'_> {
             worn.push(self.worn(part, id, *place, role, &labels));
         }
         let edge = |k: usize| {
-            let worn = of_part[self.garment.stretches[k].part].map(|index| &worn[index]);
-            worn.map_or_else(String::new, |worn| format!("{}.{}", worn.id, self.edge(labels[k], k)))
+            let worn = of_part[self.garment.stretches[k].part].map(|index| &worn[index])?;
+            Some(format!("{}.{}", worn.id, self.edge(labels[k], k)))
         };
+        let side = |k: usize| edge(k).expect("a piece in a seam is worn");
         let mut names: BTreeMap<String, usize> = BTreeMap::new();
         let mut seams: Vec<ProposedSeam> =
-            settled.found.iter().map(|found| self.seam(found, [edge(found.a), edge(found.b)], &mut names)).collect();
+            settled.seams.iter().map(|found| self.seam(found, [side(found.a), side(found.b)], &mut names)).collect();
         seams.sort_by(|a, b| b.confidence.total_cmp(&a.confidence));
-        let is_free = |k: &usize| settled.found.iter().all(|found| found.a != *k && found.b != *k);
-        let is_of_worn = |k: &usize| of_part[self.garment.stretches[*k].part].is_some();
-        let open = (0..self.garment.stretches.len()).filter(is_free).filter(is_of_worn).map(edge).collect();
-        Evident { worn, seams, open, surety: self.surety(settled) }
+        let is_free = |k: &usize| settled.partner(*k).is_none();
+        let open = (0..self.garment.stretches.len()).filter(is_free).filter_map(edge).collect();
+        let asked = asked.into_iter().map(|(text, stretch)| (text, edge(stretch))).collect();
+        Evident { worn, seams, open, surety: self.surety(settled), asked }
     }
 
     fn surety(&self, settled: &Settled) -> f64 {
-        let mut sure = settled.free.clone();
-        for found in &settled.found {
-            (sure[found.a], sure[found.b]) = (found.confidence, found.confidence);
-        }
+        let sure = settled.confidences();
         let lengths = || self.garment.stretches.iter().map(|stretch| stretch.length);
         let known: f64 = lengths().zip(&sure).filter(|(_, sure)| **sure >= DOUBTED).map(|(length, _)| length).sum();
         known / lengths().sum::<f64>()
@@ -352,10 +338,6 @@ fn is_numbered(id: &str, base: &str) -> bool {
     id.strip_prefix(base).and_then(|rest| rest.strip_prefix('_')).is_some_and(|rest| rest.parse::<usize>().is_ok())
 }
 
-fn is_below(class: Class) -> bool {
-    matches!(class, Class::Skirt | Class::Leg | Class::Waistband)
-}
-
 #[derive(Clone, Copy)]
 struct Place {
     class: Class,
@@ -410,4 +392,40 @@ fn places(parts: &[Part], twins: &[Option<usize>], kinds: &[Kind]) -> Vec<Place>
         Place { class, face, hand, confidence: sure }
     };
     (0..parts.len()).map(place).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::propose::{Question, propose, propose_answered};
+    use geom::V2;
+
+    /// Drawn once, corners in mm.
+    fn piece(name: &str, corners: &[[f64; 2]]) -> Piece {
+        let outline: Vec<V2> = corners.iter().map(|&corner| V2::from(corner) / 1000.0).collect();
+        let quantity = Some("1".to_owned());
+        Piece {
+            name: name.to_owned(),
+            block: name.to_owned(),
+            quantity,
+            turn_points: outline.clone(),
+            outline,
+            ..Piece::default()
+        }
+    }
+
+    #[test]
+    fn a_piece_in_no_seam_is_asked_about_and_nothing_is_draped_before() {
+        let panel = [[-280.0, 0.0], [280.0, 0.0], [220.0, 600.0], [-220.0, 600.0]];
+        let lone = [[0.0, 0.0], [131.0, 0.0], [157.0, 83.0], [29.0, 71.0]];
+        let pieces = [piece("X1", &panel), piece("X2", &panel), piece("X3", &lone)];
+        let proposal = propose(&pieces);
+        let question = proposal.questions.iter().find(|question| question.text.starts_with("piece `X3`"));
+        let question = question.unwrap_or_else(|| panic!("{:?}", proposal.questions));
+        assert!(proposal.to_drape().is_err());
+        let last = Question::letter(question.choices.len() - 1);
+        let answered = propose_answered(&pieces, &[(question.number, last)]).expect("an answer that is offered");
+        assert_eq!(answered.seams.len(), 2);
+        answered.to_drape().expect("two panels closed at the sides");
+    }
 }

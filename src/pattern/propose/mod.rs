@@ -2,6 +2,7 @@
 //!
 //! Names are read first (`told`, `names`). The outline of every piece is aligned with templates (`align`), which labels
 //! its edges. Then matching edges are sewn (`sew`), and equal lengths raise the confidence in the pieces (`agree`).
+//! Where that leaves a piece or a seam out, and every piece is drawn, seams are found by evidence (`evident`).
 //! Every piece and seam has a confidence, and each doubt becomes a question to the user.
 
 mod agree;
@@ -369,10 +370,17 @@ fn without(pieces: &[Piece], answers: &Answers, dismissed: &BTreeSet<usize>) -> 
     });
     let sure = evident.and_then(|(evident, aside)| Some((evident.filter(|it| it.surety > LEAST_SURETY)?, aside)));
     if let Some((evident, aside)) = sure {
-        let Asked { questions, dismissing, unsettled } = aside.into_asked();
-        let Evident { worn, seams, open, .. } = evident;
+        let Asked { mut questions, dismissing, unsettled } = aside.into_asked();
+        let Evident { worn, seams, open, asked, .. } = evident;
+        for (text, edge) in asked {
+            let about = questions.iter_mut().filter(|question| question.text == text);
+            about.for_each(|question| question.about.extend(edge.clone()));
+        }
+        let spare = left_out(pieces, |k| is_spare[k], "their quantity is 0: alternatives that are not cut");
+        let parts = left_out(pieces, |k| is_part(k) && !is_spare[k] && !dismissed.contains(&k), "by their names");
+        let dismissed = left_out(pieces, |k| dismissed.contains(&k), "so it was answered");
+        let notes = [parts, spare, dismissed].into_iter().flatten().collect();
         let pieces = listed(pieces, &[], &worn);
-        let notes = Vec::new();
         let made = Made::ByEvidence;
         return (
             Proposal { pieces, seams, open, questions, notes, size: None, allowance_m: 0.0, made, worn, unsettled },

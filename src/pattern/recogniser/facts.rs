@@ -1,6 +1,6 @@
 //! Statements that the network hears: answers of a person, and what was found before.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// Statement about a stretch that is heard, and not weighed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,8 +13,6 @@ pub enum Fact {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Facts {
     of: BTreeMap<usize, Fact>,
-    /// Pairs, the lower index first, that are not sewn to each other.
-    apart: BTreeSet<[usize; 2]>,
 }
 
 impl Facts {
@@ -22,20 +20,26 @@ impl Facts {
         self.of.get(&stretch).copied()
     }
 
+    /// Replaces what was stated of either.
     pub fn sew(&mut self, a: usize, b: usize) {
+        [a, b].into_iter().for_each(|k| self.forget(k));
         self.of.extend([(a, Fact::Sewn(b)), (b, Fact::Sewn(a))]);
     }
 
+    /// Replaces what was stated of it.
     pub fn free(&mut self, stretch: usize) {
+        self.forget(stretch);
         self.of.insert(stretch, Fact::Free);
     }
 
-    pub fn part(&mut self, a: usize, b: usize) {
-        self.apart.insert([a.min(b), a.max(b)]);
+    fn forget(&mut self, stretch: usize) {
+        if let Some(Fact::Sewn(other)) = self.of.remove(&stretch) {
+            self.of.remove(&other);
+        }
     }
 
     pub fn may_be_sewn(&self, a: usize, b: usize) -> bool {
-        a != b && self.of(a).is_none() && self.of(b).is_none() && !self.apart.contains(&[a.min(b), a.max(b)])
+        a != b && self.of(a).is_none() && self.of(b).is_none()
     }
 
     /// Row of likelihoods of a stretch with a statement.

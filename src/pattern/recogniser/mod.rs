@@ -1,6 +1,6 @@
 //! Recognition of seams by evidence: which stretch of an outline is sewn to which.
 //!
-//! Outlines are divided into [`stretch`]es at their corners. A network, fitted offline to the seams of several makers,
+//! Outlines are divided into [`stretch`]es at their corners. A network, fitted offline to garments of one program so far,
 //! weighs the [`evidence`] of each pair among all others.
 
 pub mod evidence;

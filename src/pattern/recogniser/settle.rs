@@ -7,7 +7,6 @@ use super::network::{Garment, Likelihoods};
 const SURE: f64 = 0.95;
 /// Share of the greatest likelihood that is stated together with it.
 const TOGETHER: f64 = 0.8;
-
 /// Most seams that are tried to join what falls apart, and most that are taken.
 const MOST_BRIDGES: usize = 6;
 /// Greatest difference in length of a seam that is tried to join parts: what is sewn plain.
@@ -119,6 +118,23 @@ fn settled(garment: &Garment, facts: &Facts) -> Settled {
 }
 
 impl Settled {
+    pub fn partner(&self, stretch: usize) -> Option<usize> {
+        self.seams.iter().find_map(|seam| match stretch {
+            k if k == seam.a => Some(seam.b),
+            k if k == seam.b => Some(seam.a),
+            _ => None,
+        })
+    }
+
+    /// Of each stretch: of its seam, or of staying free.
+    pub fn confidences(&self) -> Vec<f64> {
+        let mut sure = self.free.clone();
+        for seam in &self.seams {
+            (sure[seam.a], sure[seam.b]) = (seam.confidence, seam.confidence);
+        }
+        sure
+    }
+
     /// Number of groups of parts that nothing joins.
     fn components(&self, garment: &Garment) -> usize {
         let joined = Joined::of(garment, &self.seams);
