@@ -207,3 +207,37 @@ fn record_json(record: &Record) -> Json {
         "metrics": metrics, "chi": chi,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_in_the_unit_of_their_names() {
+        let metrics = MetricsRow {
+            n: 9,
+            e_chi: 1.01,
+            sd_chi: 0.02,
+            ei: 0.03,
+            max_abs_error: 0.04,
+            vertices: 100,
+            faces: 180,
+            iterations: 7,
+            residual: 0.001,
+            converged: true,
+            penetration_max_m: 0.25,
+            seam_gap_max_m: 0.5,
+            self_crossings: None,
+            distortion: Some(0.0625),
+        };
+        let all = numbers(&metrics);
+        let check = |name: &str, expect: Option<f64>| {
+            assert_eq!(all.iter().find(|(known, _)| *known == name).map(|(_, number)| *number), Some(expect), "{name}");
+        };
+        check("penetration_max_mm", Some(250.0));
+        check("seam_gap_max_mm", Some(500.0));
+        check("max_abs_error", Some(0.04));
+        check("self_crossings", None);
+        check("distortion", Some(0.0625));
+    }
+}

@@ -449,6 +449,32 @@ fn what_waits_for_a_failed_job_is_cancelled_and_retried_with_it() {
 }
 
 #[test]
+fn what_waits_for_a_cancelled_job_is_cancelled_with_it() {
+    let mut bench = Bench::new();
+    let study = chained();
+    let planned = enqueue::queue(&mut bench.store, &study, &Selection::default()).expect("queued");
+    let of = |garment: &str, subject: &str| -> Vec<JobId> {
+        let is_it =
+            |job: &&Planned| (&*job.cell.garment(&study).name, &*job.cell.subject(&study).id) == (garment, subject);
+        planned.iter().filter(is_it).map(|job| job.id).collect()
+    };
+    let awaited = of("tee", "v");
+    assert_eq!(actions::cancel(&mut bench.store, &awaited).expect("writable"), 2);
+    let check = |garment: &str, subject: &str, expect: (Status, &str)| {
+        for id in of(garment, subject) {
+            let job = read::job(&bench.store, id).expect("there");
+            let error = job.error.unwrap_or_default();
+            let why = error.split_once(", ").map_or("", |(_, why)| why);
+            assert_eq!((job.status, why), expect, "{garment} on {subject}: {error}");
+        }
+    };
+    check("tee", "v", (Status::Cancelled, ""));
+    check("over", "v", (Status::Cancelled, "which it waits for, is cancelled"));
+    check("tee", "ii", (Status::Queued, ""));
+    check("over", "ii", (Status::Queued, ""));
+}
+
+#[test]
 fn a_readonly_workspace_reads_and_refuses_to_write() {
     let mut bench = Bench::new();
     bench.run(&study(0.1), 1, quick);

@@ -372,6 +372,30 @@ fn comments_are_called_out_on_the_picture_of_their_side() {
 }
 
 #[test]
+fn a_gap_map_of_another_simulator_says_so() {
+    let check = |girth_m: f64, has_both: bool, expect: &[&str]| {
+        let mut data = fitted();
+        let drape = |simulator: Simulator| {
+            let mut run = data.runs[0].clone();
+            (run.simulator, run.ease) = (simulator, Some(ease(1.004, girth_m)));
+            let map = |name: &str| FieldMap {
+                picture: Picture { file: format!("pictures/{}-front-{name}.png", simulator.as_str()), ..picture(name) },
+                scale: Scale::diverging(0.0, 1.0, name, ""),
+            };
+            run.maps = ["stretch", "gap"].map(map).into();
+            run
+        };
+        data.runs = Simulator::ALL[..if has_both { 2 } else { 1 }].iter().map(|one| drape(*one)).collect();
+        let page = words(&String::from_utf8(files(&data, Purpose::Fit).unwrap()[1].1.clone()).unwrap());
+        let captions = page.lines().filter(|line| line.ends_with("stretch") || line.ends_with("gap"));
+        assert_eq!(captions.collect::<Vec<_>>(), expect, "{girth_m}: {page}");
+    };
+    check(1.020, true, &["stretch", "Hybrid-GS: gap"]);
+    check(1.020, false, &["stretch", "gap"]);
+    check(0.931, true, &["stretch", "gap"]);
+}
+
+#[test]
 fn both_pages_say_what_is_assumed_and_left_off() {
     for (name, page) in files(&fitted(), Purpose::Fit).unwrap().into_iter().take(2) {
         let page = words(&String::from_utf8(page).unwrap());

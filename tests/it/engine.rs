@@ -154,6 +154,8 @@ fn a_population_stands_for_somebody_new() {
     place.toile("study sizes coarse -o sizes.svg").ends_with(0);
     let svg = std::fs::read_to_string(place.path("sizes.svg")).expect("written");
     assert!(svg.contains("m: 2, as meant for") && svg.matches("<title>").count() == 2, "{svg}");
+    let check = |text: &str| assert!(svg.contains(&format!(">{text}</text>")), "{text}: {svg}");
+    ["stature, mm", "chest girth, mm"].into_iter().for_each(check);
 }
 
 #[test]

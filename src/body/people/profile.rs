@@ -270,6 +270,12 @@ mod tests {
         assert_eq!(doubts.len(), 1);
         assert_eq!(doubts[0].measurement, "neck_girth_mm");
         assert!(doubts[0].percentile > 95.0 && doubts[0].percentile_alike > 99.5, "{}", doubts[0]);
+        let of_stature = |stature_m: f64| {
+            plausibility(&Measurements::of(Sex::Male, stature_m).with(Dimension::NeckGirth, 0.49)).swap_remove(0)
+        };
+        let [short, tall] = [1.65, 1.85].map(of_stature);
+        assert_eq!(short.percentile, tall.percentile, "that among all of the sex");
+        assert!(short.percentile_alike > tall.percentile_alike, "{short}, {tall}");
         let median = percentile(Sex::Male, Dimension::Stature, 0.5624_f64.exp(), None, None);
         assert!((median - 50.0).abs() < 1e-3, "{median}");
         let tall = percentile(Sex::Female, Dimension::Stature, (0.4869 + 1.6449 * 0.0394_f64).exp(), Some(1.6), None);

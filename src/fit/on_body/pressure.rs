@@ -180,7 +180,7 @@ mod tests {
 
     #[test]
     fn a_region_s_pressure_is_the_mean_over_what_presses() {
-        // A strip across the front at the waist, a third of which presses with 1 kPa and a third with 3.
+        // A strip across the front at the waist: two parts of five press with 1 kPa, one with 3.
         let body = body();
         let z = body.levels.waist_m;
         let mut cloth = TriMesh { positions: Vec::new(), triangles: Vec::new() };
@@ -188,14 +188,15 @@ mod tests {
         for k in 0..300 {
             let x = -0.06 + 0.12 * f64::from(k) / 300.0;
             let first = cloth.positions.len();
-            cloth.positions.extend([V3::new(x, 0.12, z), V3::new(x + 4e-4, 0.12, z), V3::new(x, 0.12, z + 0.01)]);
+            let (presses_kpa, height) = [(0.0, 0.02), (1.0, 0.02), (3.0, 0.01)][k as usize / 100];
+            cloth.positions.extend([V3::new(x, 0.12, z), V3::new(x + 4e-4, 0.12, z), V3::new(x, 0.12, z + height)]);
             cloth.triangles.push([first, first + 1, first + 2]);
-            kpa.extend([[0.0, 1.0, 3.0][k as usize / 100]; 3]);
+            kpa.extend([presses_kpa; 3]);
         }
         let found = pressed(&body, &cloth, &kpa);
         assert_eq!(found.len(), 1, "{found:?}");
         assert_eq!(found[0].region, Region::Waist);
-        assert!((found[0].mean_kpa - 2.0).abs() < 1e-12 && (found[0].most_kpa - 3.0).abs() < 1e-12, "{found:?}");
-        assert!((found[0].area_m2 - 200.0 * 2e-6).abs() < 1e-12, "{found:?}");
+        assert!((found[0].mean_kpa - 5.0 / 3.0).abs() < 1e-12 && (found[0].most_kpa - 3.0).abs() < 1e-12, "{found:?}");
+        assert!((found[0].area_m2 - 100.0 * (4e-6 + 2e-6)).abs() < 1e-12, "{found:?}");
     }
 }

@@ -122,6 +122,61 @@ fn what_is_written_is_read_back() {
     }
 }
 
+#[test]
+fn every_kind_of_line_has_its_layer() {
+    let square = |low: f64, high: f64| [[low, low], [high, low], [high, high], [low, high]].map(V2::from).to_vec();
+    let hole = [square(0.12, 0.14), vec![V2::new(0.12, 0.12)]].concat();
+    let piece = Piece {
+        block: "P".into(),
+        name: "P".into(),
+        outline: square(0.0, 0.2),
+        sew_line: Some(square(0.01, 0.19)),
+        grain: Some([V2::new(0.1, 0.02), V2::new(0.1, 0.18)]),
+        mirror_line: Some([V2::new(0.0, 0.0), V2::new(0.0, 0.2)]),
+        grade_reference: Some([V2::new(0.05, 0.1), V2::new(0.15, 0.1)]),
+        internal_lines: vec![vec![V2::new(0.03, 0.03), V2::new(0.03, 0.17)]],
+        cut_outs: vec![hole],
+        drill_holes: vec![V2::new(0.05, 0.15)],
+        ..Piece::default()
+    };
+    let in_micrometres = |line: &[V2]| line.iter().map(|p| (p * 1e6).map(f64::round)).collect::<Vec<_>>();
+    for standard in [Standard::Aama, Standard::Astm] {
+        let file =
+            read(&write_pieces(std::slice::from_ref(&piece), &[], standard), "a.dxf", None).expect("our own file");
+        let again = &file.pieces[0];
+        let check = |what: &str, lines: fn(&Piece) -> Vec<&[V2]>| {
+            let [written, read] = [&piece, again].map(|piece| lines(piece).into_iter().map(in_micrometres));
+            assert_eq!(read.collect::<Vec<_>>(), written.collect::<Vec<_>>(), "{what}, {standard:?}");
+        };
+        check("cut line", |piece| vec![&piece.outline]);
+        check("sew line", |piece| piece.sew_line.iter().map(Vec::as_slice).collect());
+        check("grain", |piece| piece.grain.iter().map(<[V2; 2]>::as_slice).collect());
+        check("mirror line", |piece| piece.mirror_line.iter().map(<[V2; 2]>::as_slice).collect());
+        check("grade reference", |piece| piece.grade_reference.iter().map(<[V2; 2]>::as_slice).collect());
+        check("internal lines", |piece| piece.internal_lines.iter().map(Vec::as_slice).collect());
+        check("cut-outs", |piece| piece.cut_outs.iter().map(Vec::as_slice).collect());
+        check("drill holes", |piece| vec![&piece.drill_holes]);
+    }
+}
+
+#[test]
+fn quantities_are_counted_as_the_standard_does() {
+    let check = |standard: Standard, written: &str, expect: &str| {
+        let mut piece = tshirt(TshirtSize::S).pieces.swap_remove(0);
+        piece.quantity = Some(written.to_owned());
+        let file = read(&write_pieces(&[piece], &[], standard), "a.dxf", None).expect("our own file");
+        assert_eq!(file.pieces[0].quantity.as_deref(), Some(expect), "{standard:?}: {written}");
+    };
+    check(Standard::Aama, "3", "3");
+    check(Standard::Aama, "2,1", "3");
+    check(Standard::Aama, "1, 1", "2");
+    check(Standard::Astm, "1", "1,0");
+    check(Standard::Astm, "2", "1,1");
+    check(Standard::Astm, "3", "2,1");
+    check(Standard::Astm, "2,1", "2,1");
+    check(Standard::Astm, "a pair", "a pair");
+}
+
 fn edited(from: &str, to: &str) -> Vec<u8> {
     let text = String::from_utf8(tshirt(TshirtSize::S).dxf()).expect("we write ASCII");
     assert!(text.contains(from), "`{from}` is in the file");

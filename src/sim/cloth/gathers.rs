@@ -204,8 +204,9 @@ mod tests {
         let (garment, [_, upper]) = skirt(ratio, 0.02);
         let gathers = Gathers::of(&garment);
         let is_upper = |v: &usize| upper.contains(v);
+        let is_next = |v: &usize| (garment.rest[*v].y + 0.03 * 0.75_f64.sqrt()).abs() < 1e-9;
         let side = |shape: &[V2; 3], k: usize| (shape[(k + 1) % 3] - shape[k]).norm();
-        let mut seen = [0, 0];
+        let mut seen = [0, 0, 0];
         for piece in &garment.pieces {
             for &t in &garment.triangles[piece.triangles.clone()] {
                 let drawn = t.map(|v| garment.rest[v]);
@@ -220,9 +221,14 @@ mod tests {
                     assert!((side(&shape, k) - 0.02).abs() < 1e-12, "{}", side(&shape, k));
                     seen[1] += 1;
                 }
+                for k in (0..3).filter(|&k| is_next(&t[k]) && is_next(&t[(k + 1) % 3])) {
+                    let share = 1.0 / ratio + (1.0 - 1.0 / ratio) / f64::from(ROWS);
+                    assert!((side(&shape, k) - share * side(&drawn, k)).abs() < 1e-12, "{}", side(&shape, k));
+                    seen[2] += 1;
+                }
             }
         }
-        assert!(seen[0] > 100 && seen[1] == 15, "{seen:?}");
+        assert!(seen[0] > 100 && seen[1] == 15 && seen[2] > 25, "{seen:?}");
     }
 
     #[test]

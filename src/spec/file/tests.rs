@@ -294,6 +294,9 @@ fn schedules_are_read_and_circles_refused() {
     assert_eq!(over.after, ["tee edge_length_mm=20", "tee edge_length_mm=15"]);
     assert_eq!((over.priority, over.limits), (2, Limits { time_s: Some(60.0), memory_mb: Some(500) }));
     assert_eq!((plain.after.len(), plain.limits.time_s), (0, Some(60.0)));
+    let own =
+        two("time_limit_s = 20").expect("good").garments.into_iter().map(|garment| garment.schedule.limits.time_s);
+    assert_eq!(own.collect::<Vec<_>>(), [Some(60.0), Some(20.0)], "a garment's own limit before that of the study");
     let mut study = study;
     study.limit(Limits { time_s: Some(5.0), memory_mb: None });
     assert_eq!(study.garments[2].schedule.limits, Limits { time_s: Some(5.0), memory_mb: Some(500) });
