@@ -17,10 +17,10 @@ import numpy as np
 import jax
 import jax.numpy as jnp
 
-SHAPE, PLACE, SAID, PAIR = 36, 5, 14, 35
+SHAPE, PLACE, SAID, PAIR = 36, 5, 14, 30
 WIDTH, ROUNDS, RANK = 48, 3, 16
 SIZES = [32, 48, 64, 80, 96, 128, 160, 200, 256, 320, 400]
-EVIDENCE, JOINTS = 11, 13
+EVIDENCE, JOINTS = 9, 13
 # Answers about a piece: kinds, then front, back or neither, then right, left or both.
 KINDS = (10, 3, 3)
 
@@ -107,8 +107,6 @@ def pad(g, size, rng):
     out["is"][:g["pieces"]] = g["is"]
     out["part"] = np.full(size, size - 1, np.int32)
     out["part"][:n] = g["part"]
-    out["length"] = np.zeros(size, np.float32)
-    out["length"][:n] = g["length"]
     out["weight"] = np.zeros(size, np.float32)
     out["weight"][:n] = np.sqrt(g["length"] / 100)
     return out
@@ -177,9 +175,6 @@ def called(said, part, rng):
         return np.zeros_like(said)
     count = part.max() + 1
     keep = np.ones((count, 3)) if way < 0.75 else rng.random((count, 3)) < rng.choice([0.3, 0.6, 0.85])
-    if rng.random() < 0.4:
-        # A piece that is cut twice says no hand.
-        keep[:, 1] = 0
     keep = np.repeat(keep, [2, 2, SAID - 4], axis=1)
     out = said * keep[part]
     for piece in np.nonzero(rng.random(count) < 0.02)[0]:
@@ -270,10 +265,6 @@ def forward(net, g):
         top = jnp.sort(a, 1)[:, -2:]
         rival = jnp.where(a >= top[:, 1:], top[:, :1], top[:, 1:])
         evidence = [wide[:n, :n], pick("previous", "next"), pick("next", "previous"), pick("twin", "twin"), pick("own", "own"), jnp.clip(s / 10, -2, 2), rival + rival.T, pick("own", "twin") + pick("twin", "own"), a * (1 - a.T) + a.T * (1 - a)]
-        # What the stretches that want this one leave of it, less this pair's other one.
-        wanted = a.T * g["length"][None]
-        rest = jnp.abs(g["length"][:, None] - wanted.sum(1, keepdims=True) + wanted - g["length"][None])
-        evidence += [jnp.exp(-rest / 3), jnp.exp(-rest / (0.05 * g["length"][:, None] + 1e-3))]
         return a, jnp.stack(evidence, 2), jnp.stack([p[:, n], top[:, 1]], 1)
 
     h = dense(net["enter"], g["x"])

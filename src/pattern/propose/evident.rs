@@ -3,22 +3,18 @@
 use std::collections::BTreeMap;
 
 use super::ask::Asker;
-use super::chains::{self, Chain, Chains, Edge};
 use super::cutting::Cutting;
 use super::worn_pieces::{Worn, WornEdge, id_of_kind};
 use super::{Class, Face, Hand, Label, ProposedSeam, SeamKind, role_of};
 use crate::piece::Piece;
-use crate::recogniser::divide::{self, Divided};
 use crate::recogniser::facts::Facts;
 use crate::recogniser::network::{Garment, Kind, Likelihoods};
 use crate::recogniser::settle::{self, Found, Settled};
-use crate::recogniser::surface::Surface;
 use crate::recogniser::{self, Part};
 use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, Ease, PieceEntry, SeamEntry};
 use crate::style::correspond::shares;
 use crate::style::named::reference;
 use crate::trade::{Named, PartName};
-use geom::V2;
 use geom::units::mm;
 
 /// Most questions that are open at the same time: the answer to one settles others.
@@ -30,8 +26,6 @@ const LEAST_ASKED_M: f64 = 30e-3;
 /// Cost in nats of a seam between a front of one hand and a back of the other: drawn from inside, a piece is of the other
 /// hand.
 const CROSSED: f64 = 3.0;
-/// Cost in nats of backs that are drawn from inside: most files draw every piece from outside.
-const TURNED: f64 = 1.0;
 /// Cost in nats of names that mislead: a stranger's words may be of any language.
 const MISNAMED: f64 = 1.0;
 /// Length beyond which a stretch matters no more.
@@ -39,8 +33,6 @@ const LONG_M: f64 = 0.3;
 /// Least likelihood of a partner that is offered.
 const OFFERED: f64 = 0.02;
 const MOST_OFFERED: usize = 4;
-/// Greatest distance of the end of an edge from the vertex where it is cut.
-const AT_VERTEX_M: f64 = 3e-3;
 
 pub struct Evident {
     pub worn: Vec<Worn>,
@@ -51,10 +43,6 @@ pub struct Evident {
     pub surety: f64,
     /// Texts of the questions about edges, each with its edge where that is of a piece in a seam.
     pub asked: Vec<(String, Option<String>)>,
-    /// Pieces that equal one which is sewn.
-    pub layers: Vec<String>,
-    /// Edges that would have to be divided between vertices to be sewn, of each seam both.
-    pub dropped: Vec<[String; 2]>,
 }
 
 /// A piece as it is worn.
@@ -73,39 +61,22 @@ pub fn evident(
 ) -> Option<Evident> {
     let drawn = recogniser::parts(pieces, named);
     let copies = (0..pieces.len()).filter(|&k| is_worn(k)).map(|piece| Copy { piece, is_mirror: false }).collect();
-    let weighed = ways(&drawn, copies).into_iter().map(|(cost, copies, parts)| {
+    let ways = ways(&drawn, copies);
+    let weighed = ways.into_iter().map(|(cost, copies, parts)| {
         let garment = Garment::of(&parts);
-        let settled = settle::settled(&garment, &Facts::default());
+        let settled = settle::seams(&garment, &Facts::default());
         let evidence = settled.evidence() - cost - CROSSED * crossed(&parts, &garment, &settled.seams) as f64;
-        (evidence, copies, parts)
+        (evidence, copies, parts, garment)
     });
-    let (_, copies, parts) = weighed.reduce(|best, way| if way.0 > best.0 { way } else { best })?;
-    if parts.is_empty() {
-        return None;
-    }
-    let Divided { parts, garment, whole } = divide::divided(parts);
-    let table = Table { pieces, copies: &copies, parts: &parts, garment: &garment, whole: &whole };
-    let (mut settled, asked) = table.settled(asker);
-    let chains = chains::chains(&garment, &whole, &settled, |k| table.vertex_behind(k).is_some());
-    settled.seams.retain(|seam| chains.dropped.iter().all(|dropped| !dropped.joins(seam.a, seam.b)));
+    let best = weighed.reduce(|best, way| if way.0 > best.0 { way } else { best });
+    let (_, copies, parts, garment) = best.filter(|(_, _, _, garment)| !garment.stretches.is_empty())?;
+    let table = Table { pieces, copies: &copies, parts: &parts, garment: &garment };
+    let (settled, asked) = table.settled(asker);
     if settled.seams.is_empty() {
         return None;
     }
     table.ask_left_out(&settled, asker);
-    let Surface { handles, components, .. } =
-        Surface::of(&garment.stretches, settled.seams.iter().map(|seam| (seam.a, seam.b)));
-    if handles > 0 || components > 1 {
-        let text = "sewn like this, nobody could wear it: which seams are wrong?".to_owned();
-        asker.require(&text);
-        asker.tell(text);
-    }
-    let evident = table.sewn(named, &settled, &chains, asked);
-    for [a, b] in &evident.dropped {
-        let text = format!("{a} and {b} belong together, but end between the corners of an edge: where do they end?");
-        asker.require(&text);
-        asker.tell(text);
-    }
-    Some(evident)
+    Some(table.sewn(named, &settled, asked))
 }
 
 /// Number of seams between a front of one hand and a back of the other.
@@ -129,7 +100,7 @@ fn ways(drawn: &[Part], copies: Vec<Copy>) -> Vec<(f64, Vec<Copy>, Vec<Part>)> {
     let nameless = parts(&copies).into_iter().map(|part| Part { said: Named::default(), ..part }).collect();
     let mut ways = vec![(0.0, copies.clone(), parts(&copies))];
     if copies.iter().any(is_back) {
-        ways.push((TURNED, turned.clone(), parts(&turned)));
+        ways.push((0.0, turned.clone(), parts(&turned)));
     }
     if drawn.iter().any(|part| !part.said.is_nameless()) {
         ways.push((MISNAMED, copies, nameless));
@@ -137,7 +108,7 @@ fn ways(drawn: &[Part], copies: Vec<Copy>) -> Vec<(f64, Vec<Copy>, Vec<Part>)> {
     ways
 }
 
-/// True if every piece is drawn as often as it is worn.
+/// True if every piece is drawn as often as it is worn, as the garments are that the recogniser was fitted to.
 pub fn is_drawn_whole(pieces: &[Piece], is_worn: impl Fn(usize) -> bool) -> bool {
     let is_whole = |piece: &Piece| {
         let Cutting { times, on_fold } = Cutting::of(piece);
@@ -155,46 +126,28 @@ struct Table<'t> {
     copies: &'t [Copy],
     parts: &'t [Part],
     garment: &'t Garment,
-    /// For each stretch, the undivided one.
-    whole: &'t [usize],
 }
 
 impl Table<'_> {
-    /// Stretches of a part.
-    fn of_part(&self, part: usize) -> impl Iterator<Item = usize> + '_ {
-        (0..self.garment.stretches.len()).filter(move |&k| self.garment.stretches[k].part == part)
-    }
-
-    /// Number of the undivided stretch along its piece as drawn, from 1.
+    /// Number of a stretch of a part along its piece as drawn, from 1.
     fn number(&self, stretch: usize) -> usize {
-        let part = self.garment.stretches[stretch].part;
-        let mut wholes: Vec<usize> = self.of_part(part).map(|k| self.whole[k]).collect();
-        wholes.dedup();
-        let (count, at) = (wholes.len(), self.whole[stretch] - wholes[0]);
-        1 + if self.copies[part].is_mirror { (2 * count - 2 - at) % count } else { at }
+        let stretch = &self.garment.stretches[stretch];
+        let count = self.parts[stretch.part].corners.len();
+        1 + if self.copies[stretch.part].is_mirror { (2 * count - 2 - stretch.at) % count } else { stretch.at }
     }
 
     /// Stretch for a person to find in the picture.
     fn name(&self, stretch: usize) -> String {
         let piece = self.copies[self.garment.stretches[stretch].part].piece;
-        let edge = format!("edge {} of `{}`", self.number(stretch), reference(self.pieces, piece));
-        let parts = (0..self.whole.len()).filter(|&k| self.whole[k] == self.whole[stretch]);
-        match parts.clone().count() {
-            1 => edge,
-            count => {
-                let mm = mm(self.garment.stretches[stretch].length);
-                let number = 1 + parts.take_while(|&k| k < stretch).count();
-                format!("{edge}, part {number} of {count} ({mm:.0} mm)")
-            }
-        }
+        format!("edge {} of `{}`", self.number(stretch), reference(self.pieces, piece))
     }
 
     /// Asks about what is doubtful, and hears the answers. Returns also the stretches asked about, with the texts.
     fn settled(&self, asker: &mut Asker<'_>) -> (Settled, Vec<(String, usize)>) {
         let (mut facts, mut asked, mut told, mut open) = (Facts::default(), Vec::new(), Vec::new(), 0);
         let first = self.garment.likelihoods(&facts);
-        let mut settled = settle::seams(self.garment, &facts);
         loop {
+            let settled = settle::seams(self.garment, &facts);
             let doubt = if open < MOST_ASKED { self.doubt(&settled, &asked) } else { None };
             let Some(stretch) = doubt else { return (settled, told) };
             let partner = settled.partner(stretch);
@@ -212,12 +165,8 @@ impl Table<'_> {
             match taken.filter(|_| is_answered).and_then(|choice| partners.get(choice)) {
                 Some(&Some(partner)) => facts.sew(stretch, partner),
                 Some(None) => facts.free(stretch),
-                None => {
-                    open += 1;
-                    continue;
-                }
+                None => open += 1,
             }
-            settled = settle::seams(self.garment, &facts);
         }
     }
 
@@ -226,32 +175,13 @@ impl Table<'_> {
         settled.seams.iter().any(|seam| is_of(seam.a) || is_of(seam.b))
     }
 
-    /// Parts in no seam that equal one which is sewn: second layers.
-    fn layers(&self, settled: &Settled) -> Vec<usize> {
-        let symmetry = &self.garment.symmetry;
-        let are_equal = |a: usize, b: usize| symmetry.kind[a] == symmetry.kind[b] || symmetry.twin_part[a] == Some(b);
-        let is_layer = |&part: &usize| {
-            let others = (0..self.copies.len()).filter(|&other| other != part);
-            !self.is_sewn(part, settled)
-                && others.clone().any(|other| are_equal(part, other) && self.is_sewn(other, settled))
-        };
-        (0..self.copies.len()).filter(is_layer).collect()
-    }
-
     /// Asks about each piece that is in no seam: nothing is draped before.
     fn ask_left_out(&self, settled: &Settled, asker: &mut Asker<'_>) {
-        let layers = self.layers(settled);
-        let is_left = |part: &usize| !self.is_sewn(*part, settled) && !layers.contains(part);
-        for part in (0..self.copies.len()).filter(is_left) {
-            let name = reference(self.pieces, self.copies[part].piece);
+        for (_, copy) in self.copies.iter().enumerate().filter(|&(part, _)| !self.is_sewn(part, settled)) {
+            let name = reference(self.pieces, copy.piece);
             let text = format!("piece `{name}`: nothing was found that is sewn to it; what is it?");
             asker.require(&text);
-            asker.ask_of(
-                [self.copies[part].piece],
-                text,
-                ["worn: its seams are to be written into the seam file"],
-                None,
-            );
+            asker.ask_of([copy.piece], text, ["worn: its seams are to be written into the seam file"], None);
         }
     }
 
@@ -281,12 +211,12 @@ impl Table<'_> {
         partners
     }
 
-    fn sewn(&self, named: &[Named], settled: &Settled, chains: &Chains, asked: Vec<(String, usize)>) -> Evident {
+    fn sewn(&self, named: &[Named], settled: &Settled, asked: Vec<(String, usize)>) -> Evident {
         let kinds = self.garment.likelihoods(&Facts::default()).kinds;
         let places = places(self.parts, &self.garment.symmetry.twin_part, &kinds);
         let named: Vec<Named> = self.copies.iter().map(|copy| named[copy.piece]).collect();
         let is_bodice = places.iter().any(|place| matches!(place.class, Class::Skirt | Class::Leg | Class::Waistband));
-        let names = self.edge_names(chains, &self.labels(&places, &settled.seams));
+        let labels = self.labels(&places, &settled.seams);
         let mut worn: Vec<Worn> = Vec::new();
         let mut of_part: Vec<Option<usize>> = Vec::new();
         for (part, place) in places.iter().enumerate() {
@@ -301,30 +231,21 @@ impl Table<'_> {
             let class = named[part].class.filter(|&class| class != Class::Other).unwrap_or(place.class);
             let role = role_of(Some(class), place.face, place.hand, is_bodice);
             of_part.push(Some(worn.len()));
-            worn.push(self.worn(part, id, *place, role, &chains.edges, &names));
+            worn.push(self.worn(part, id, *place, role, &labels));
         }
-        let edge = |index: usize| {
-            let worn = of_part[chains.edges[index].part].map(|index| &worn[index])?;
-            Some(format!("{}.{}", worn.id, names[index].0))
+        let edge = |k: usize| {
+            let worn = of_part[self.garment.stretches[k].part].map(|index| &worn[index])?;
+            Some(format!("{}.{}", worn.id, self.edge(labels[k], k)))
         };
-        let mut counts: BTreeMap<String, usize> = BTreeMap::new();
-        let side = |edges: &[usize]| -> Vec<String> { edges.iter().filter_map(|&index| edge(index)).collect() };
-        let mut seams: Vec<ProposedSeam> = chains
-            .seams
-            .iter()
-            .map(|chain| self.seam(chain, &chains.edges, [side(&chain.a), side(&chain.b)], &mut counts))
-            .collect();
+        let side = |k: usize| edge(k).expect("a piece in a seam is worn");
+        let mut names: BTreeMap<String, usize> = BTreeMap::new();
+        let mut seams: Vec<ProposedSeam> =
+            settled.seams.iter().map(|found| self.seam(found, [side(found.a), side(found.b)], &mut names)).collect();
         seams.sort_by(|a, b| b.confidence.total_cmp(&a.confidence));
-        let is_free =
-            |index: &usize| chains.seams.iter().all(|seam| !seam.a.contains(index) && !seam.b.contains(index));
-        let open = (0..chains.edges.len()).filter(is_free).filter_map(edge).collect();
-        let asked = asked.into_iter().map(|(text, stretch)| (text, edge(chains.edge_of[stretch]))).collect();
-        let layers =
-            self.layers(settled).into_iter().map(|part| reference(self.pieces, self.copies[part].piece)).collect();
-        let is_long = |seam: &&Found| self.garment.stretches[seam.a].length > LEAST_ASKED_M;
-        let dropped = chains.dropped.iter().filter(is_long);
-        let dropped = dropped.map(|seam| [self.name(seam.a), self.name(seam.b)]).collect();
-        Evident { worn, seams, open, surety: self.surety(settled), asked, layers, dropped }
+        let is_free = |k: &usize| settled.partner(*k).is_none();
+        let open = (0..self.garment.stretches.len()).filter(is_free).filter_map(edge).collect();
+        let asked = asked.into_iter().map(|(text, stretch)| (text, edge(stretch))).collect();
+        Evident { worn, seams, open, surety: self.surety(settled), asked }
     }
 
     fn surety(&self, settled: &Settled) -> f64 {
@@ -334,33 +255,16 @@ impl Table<'_> {
         known / lengths().sum::<f64>()
     }
 
-    fn length(&self, edge: &Edge) -> f64 {
-        edge.stretches.iter().map(|&k| self.garment.stretches[k].length).sum()
-    }
-
-    fn seam(
-        &self,
-        chain: &Chain,
-        edges: &[Edge],
-        [a, b]: [Vec<String>; 2],
-        names: &mut BTreeMap<String, usize>,
-    ) -> ProposedSeam {
-        let sum = |side: &[usize]| mm(side.iter().map(|&index| self.length(&edges[index])).sum());
-        let (a_mm, b_mm) = (sum(&chain.a), sum(&chain.b));
-        let id = |edges: &[String]| edges[0].split_once('.').map_or_else(String::new, |(id, _)| id.to_owned());
+    fn seam(&self, found: &Found, [a, b]: [String; 2], names: &mut BTreeMap<String, usize>) -> ProposedSeam {
+        let [first, second] = [found.a, found.b].map(|k| &self.garment.stretches[k]);
+        let (a_mm, b_mm) = (mm(first.length), mm(second.length));
+        let id = |edge: &str| edge.split_once('.').map_or_else(String::new, |(id, _)| id.to_owned());
         let mut count = |base: &str| {
             let count = names.entry(base.to_owned()).or_default();
             *count += 1;
             *count
         };
-        let [first, second] = [&chain.a, &chain.b].map(|side| &edges[side[0]]);
-        let is_dart = || {
-            let ends = |edge: &Edge| (edge.stretches[0], edge.stretches[edge.stretches.len() - 1]);
-            let ((start, end), (other_start, other_end)) = (ends(first), ends(second));
-            let next = |k: usize| self.garment.stretches[k].next;
-            first.part == second.part && (next(end) == other_start || next(other_end) == start)
-        };
-        let kind = if is_dart() {
+        let kind = if first.part == second.part {
             let piece = id(&a);
             SeamKind::Dart { number: count(&piece), piece }
         } else {
@@ -369,23 +273,13 @@ impl Table<'_> {
         };
         let excess = ((a_mm - b_mm) * 10.0).round() / 10.0;
         let ease_mm = Ease::Same(if excess.abs() > 0.5 * DEFAULT_LENGTH_TOLERANCE_MM { excess } else { 0.0 });
-        let entry = SeamEntry { name: kind.to_string(), a, b, same_direction: false, ease_mm };
-        ProposedSeam { entry, kind, a_mm, b_mm, confidence: chain.confidence }
+        let entry = SeamEntry { name: kind.to_string(), a: vec![a], b: vec![b], same_direction: false, ease_mm };
+        ProposedSeam { entry, kind, a_mm, b_mm, confidence: found.confidence }
     }
 
-    /// Names begin with what the edges are: so a piece is known to be upright.
-    fn edge_names(&self, chains: &Chains, labels: &[Option<Label>]) -> Vec<(String, Option<Label>)> {
-        let mut of_whole: BTreeMap<usize, u8> = BTreeMap::new();
-        let name = |edge: &Edge| {
-            let (first, length) = (edge.stretches[0], |k: usize| self.garment.stretches[k].length);
-            let longest = edge.stretches.iter().copied().reduce(|a, b| if length(b) > length(a) { b } else { a });
-            let label = longest.and_then(|k| labels[k]);
-            let part = of_whole.entry(self.whole[first]).or_default();
-            *part += 1;
-            let letter = if *part == 1 { String::new() } else { char::from(b'a' + *part - 1).to_string() };
-            (format!("{}_{}{letter}", label.map_or("edge", Label::as_str), self.number(first)), label)
-        };
-        chains.edges.iter().map(name).collect()
+    /// Names of edges begin with what they are: so a piece is known to be upright.
+    fn edge(&self, label: Option<Label>, stretch: usize) -> String {
+        format!("{}_{}", label.map_or("edge", Label::as_str), self.number(stretch))
     }
 
     fn labels(&self, places: &[Place], found: &[Found]) -> Vec<Option<Label>> {
@@ -399,55 +293,24 @@ impl Table<'_> {
         partners.iter().enumerate().map(label).collect()
     }
 
-    /// Vertex of the drawn outline at the end of a stretch. `None` if it ends between vertices.
-    fn vertex_behind(&self, stretch: usize) -> Option<usize> {
-        let part = self.garment.stretches[stretch].part;
-        let corner = self.parts[part].corners[self.garment.stretches[self.garment.stretches[stretch].next].at];
-        let point = self.parts[part].outline[corner];
+    fn worn(&self, part: usize, id: String, place: Place, role: crate::Role, labels: &[Option<Label>]) -> Worn {
         let Copy { piece, is_mirror } = self.copies[part];
-        let point = if is_mirror { V2::new(-point.x, point.y) } else { point };
-        let outline = self.pieces[piece].seam_outline();
-        let distance = |&vertex: &usize| (outline[vertex] - point).norm();
-        let nearest = (0..outline.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        nearest.filter(|vertex| distance(vertex) < AT_VERTEX_M)
-    }
-
-    fn worn(
-        &self,
-        part: usize,
-        id: String,
-        place: Place,
-        role: crate::Role,
-        edges: &[Edge],
-        names: &[(String, Option<Label>)],
-    ) -> Worn {
-        let Copy { piece, is_mirror } = self.copies[part];
-        let own: Vec<usize> = (0..edges.len()).filter(|&index| edges[index].part == part).collect();
-        let worn_edge = |&index: &usize| {
-            let (mut length, mut notches) = (0.0, Vec::new());
-            for stretch in edges[index].stretches.iter().map(|&k| &self.garment.stretches[k]) {
-                notches.extend(stretch.notches.iter().map(|arc| arc + length));
-                length += stretch.length;
+        let own: Vec<usize> =
+            (0..self.garment.stretches.len()).filter(|&k| self.garment.stretches[k].part == part).collect();
+        let edges = own.iter().map(|&k| {
+            let stretch = &self.garment.stretches[k];
+            WornEdge {
+                name: self.edge(labels[k], k),
+                label: labels[k],
+                hand: None,
+                length: stretch.length,
+                notches: stretch.notches.clone(),
             }
-            WornEdge { name: names[index].0.clone(), label: names[index].1, hand: None, length, notches }
-        };
+        });
+        let count = own.len();
+        let corners = |(name, from): (String, usize)| (name, [from, (from + 1) % count]);
         let outline = self.pieces[piece].seam_outline();
-        let end = |&index: &usize| {
-            let last = edges[index].stretches[edges[index].stretches.len() - 1];
-            self.vertex_behind(last).expect("an edge ends at a vertex")
-        };
-        // Ends of the edges as worn. As drawn, a mirrored piece is run the other way.
-        let mut ends: Vec<(usize, usize)> = own.iter().map(|index| (*index, end(index))).collect();
-        let count = ends.len();
-        let mut spans: Vec<(usize, [usize; 2])> =
-            (0..count).map(|k| (ends[k].0, [ends[(k + count - 1) % count].1, ends[k].1])).collect();
-        if is_mirror {
-            spans.iter_mut().for_each(|(_, span)| span.reverse());
-        }
-        ends.sort_unstable_by_key(|&(_, vertex)| vertex);
-        let corners: Vec<usize> = ends.into_iter().map(|(_, vertex)| vertex).collect();
-        let number = |vertex: usize| corners.binary_search(&vertex).expect("the end of an edge is a corner");
-        let spans = spans.into_iter().map(|(index, span)| (names[index].0.clone(), span.map(number)));
+        let drawn = recogniser::corners(&self.pieces[piece]);
         Worn {
             piece,
             id,
@@ -461,11 +324,11 @@ impl Table<'_> {
                 block: reference(self.pieces, piece),
                 role,
                 mirror: is_mirror,
-                corners_at: shares(outline, &corners),
+                corners_at: shares(outline, &drawn),
                 allowance_mm: BTreeMap::new(),
-                edges: spans.collect(),
+                edges: own.iter().map(|&k| (self.edge(labels[k], k), self.number(k) - 1)).map(corners).collect(),
             },
-            edges: own.iter().map(worn_edge).collect(),
+            edges: edges.collect(),
             confidence: place.confidence,
         }
     }

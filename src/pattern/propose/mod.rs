@@ -2,15 +2,13 @@
 //!
 //! Names are read first (`told`, `names`). The outline of every piece is aligned with templates (`align`), which labels
 //! its edges. Then matching edges are sewn (`sew`), and equal lengths raise the confidence in the pieces (`agree`).
-//! Where that leaves a piece or a seam out, and every piece is drawn, seams are found by evidence (`evident`), and chains
-//! of edges made of them (`chains`).
+//! Where that leaves a piece or a seam out, and every piece is drawn, seams are found by evidence (`evident`).
 //! Every piece and seam has a confidence, and each doubt becomes a question to the user.
 
 mod agree;
 mod align;
 mod ask;
 mod cap;
-mod chains;
 mod choose;
 mod circle_skirt;
 mod collar;
@@ -332,13 +330,6 @@ fn left_out(pieces: &[Piece], is_it: impl Fn(usize) -> bool, why: &str) -> Optio
     (!listed.is_empty()).then(|| format!("left out: {}: {why}", listed.join(", ")))
 }
 
-/// `None` without a name.
-fn listed_once(mut names: Vec<String>) -> Option<String> {
-    names.dedup();
-    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-    (!quoted.is_empty()).then(|| quoted.join(", "))
-}
-
 /// Proposal without the pieces that the user dismissed, and the pieces that an answer dismisses besides.
 fn without(pieces: &[Piece], answers: &Answers, dismissed: &BTreeSet<usize>) -> (Proposal, BTreeSet<usize>) {
     let mut asker = Asker::new(answers, dismissed.clone());
@@ -375,12 +366,12 @@ fn without(pieces: &[Piece], answers: &Answers, dismissed: &BTreeSet<usize>) -> 
     let is_told = is_read && wear::is_closed(&worn, &seams);
     let evident = (!is_told && evident::is_drawn_whole(pieces, may_be_worn)).then(|| {
         let mut aside = asker.aside();
-        let evident = evident::evident(pieces, &named, may_be_worn, &mut aside)?;
-        (evident.surety > LEAST_SURETY).then(|| (evident, aside.into_asked()))
+        (evident::evident(pieces, &named, may_be_worn, &mut aside), aside)
     });
-    if let Some((evident, asked)) = evident.flatten() {
-        let Asked { mut questions, dismissing, unsettled } = asked;
-        let Evident { worn, seams, open, asked, layers, .. } = evident;
+    let sure = evident.and_then(|(evident, aside)| Some((evident.filter(|it| it.surety > LEAST_SURETY)?, aside)));
+    if let Some((evident, aside)) = sure {
+        let Asked { mut questions, dismissing, unsettled } = aside.into_asked();
+        let Evident { worn, seams, open, asked, .. } = evident;
         for (text, edge) in asked {
             let about = questions.iter_mut().filter(|question| question.text == text);
             about.for_each(|question| question.about.extend(edge.clone()));
@@ -388,9 +379,7 @@ fn without(pieces: &[Piece], answers: &Answers, dismissed: &BTreeSet<usize>) -> 
         let spare = left_out(pieces, |k| is_spare[k], "their quantity is 0: alternatives that are not cut");
         let parts = left_out(pieces, |k| is_part(k) && !is_spare[k] && !dismissed.contains(&k), "by their names");
         let dismissed = left_out(pieces, |k| dismissed.contains(&k), "so it was answered");
-        let layers =
-            listed_once(layers).map(|names| format!("left out: {names}: second layers, equal to what is sewn"));
-        let notes = [parts, spare, dismissed, layers].into_iter().flatten().collect();
+        let notes = [parts, spare, dismissed].into_iter().flatten().collect();
         let pieces = listed(pieces, &[], &worn);
         let made = Made::ByEvidence;
         return (

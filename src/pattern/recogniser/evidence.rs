@@ -14,7 +14,7 @@ pub const PLACE: usize = 5;
 /// Numbers of the name: faces, hands, classes.
 pub const SAID: usize = 4 + CLASSES.len();
 /// Numbers of a pair that do not depend on names.
-pub const PAIR: usize = 35;
+pub const PAIR: usize = 30;
 
 pub const CLASSES: [Class; 10] = [
     Class::Body,
@@ -182,7 +182,6 @@ pub fn pair(stretches: &[Stretch], symmetry: &Symmetry, i: usize, j: usize) -> [
     let is_adjacent = is_same && (is_next || is_before) && i != j;
     let kinds = [symmetry.kind[a.part], symmetry.kind[b.part]];
     let [matched, marked] = notches(a, b);
-    let Partial { mirrors, complements, is_marked } = Partial::of(a, b);
     [
         near(difference, 0.3),
         near(difference, 2.0),
@@ -214,51 +213,8 @@ pub fn pair(stretches: &[Stretch], symmetry: &Symmetry, i: usize, j: usize) -> [
         flag(!is_same && kinds[0] == kinds[1]),
         matched,
         marked,
-        near(mirrors[0], 10.0),
-        near(mirrors[1], 10.0),
-        near(complements[0], 10.0),
-        near(complements[1], 10.0),
-        flag(is_marked),
     ]
 }
-
-/// Of a pair, the shorter along the beginning and along the end of the longer.
-struct Partial {
-    /// Root mean square differences of the directions, as mirror images bend.
-    mirrors: [f64; 2],
-    /// As edges that are drawn along one line do.
-    complements: [f64; 2],
-    /// True if a notch of the longer stands where the shorter would end.
-    is_marked: bool,
-}
-
-/// Difference of the directions that counts as none in common.
-const UNLIKE_DEG: f64 = 1e3;
-
-impl Partial {
-    fn of(a: &Stretch, b: &Stretch) -> Self {
-        let (short, long) = if a.length < b.length { (a, b) } else { (b, a) };
-        let share = short.length / long.length;
-        let mut found = Self { mirrors: [UNLIKE_DEG; 2], complements: [UNLIKE_DEG; 2], is_marked: false };
-        if share > WHOLE {
-            return found;
-        }
-        for (k, from) in [0.0, 1.0 - share].into_iter().enumerate() {
-            let part = long.directions(from, share);
-            let differences = |sign: f64| {
-                let squares = part.iter().zip(short.profile.iter().rev()).map(|(x, y)| (x - sign * y).powi(2));
-                (squares.sum::<f64>() / SAMPLES as f64).sqrt()
-            };
-            (found.mirrors[k], found.complements[k]) = (differences(-1.0), differences(1.0));
-        }
-        let is_end = |arc: f64| (arc - short.length).abs().min((long.length - arc - short.length).abs()) < MATCHED_M;
-        found.is_marked = long.notches.iter().any(|&arc| is_end(arc));
-        found
-    }
-}
-
-/// Share of the longer stretch from which the shorter one counts as whole.
-const WHOLE: f64 = 0.97;
 
 /// Root mean square differences of the directions of `b`, run backwards, from those of `a`: as mirror images bend, and
 /// as edges that are drawn along one line do.

@@ -3,14 +3,12 @@
 //! Outlines are divided into [`stretch`]es at their corners. A network, fitted offline to garments of one program so far,
 //! weighs the [`evidence`] of each pair among all others.
 
-pub mod divide;
 pub mod evidence;
 pub mod facts;
 mod joints;
 pub mod network;
 pub mod settle;
 pub mod stretch;
-pub mod surface;
 pub mod symmetry;
 #[cfg(test)]
 mod tests;

@@ -12,7 +12,6 @@ use super::joints::{JOINTS, Joints};
 use super::stretch::{Part, Stretch, stretches};
 use super::symmetry::{Symmetry, symmetry};
 use crate::trade::{Class, Face};
-use geom::units::mm;
 
 const WIDTH: usize = 48;
 const RANK: usize = 16;
@@ -21,7 +20,7 @@ const ROUNDS: usize = 3;
 const SCORE: usize = 32;
 const SECOND: usize = 16;
 /// Numbers of a pair that a round hands to the next.
-const HANDED: usize = 11;
+const HANDED: usize = 9;
 
 /// Half floats, in the order in which [`Network::read`] takes them.
 const WEIGHTS: &[u8] = include_bytes!("weights.bin");
@@ -103,8 +102,7 @@ pub struct Garment {
     pub stretches: Vec<Stretch>,
     pub symmetry: Symmetry,
     seen: Evidence,
-    /// For each round, of each pair: what its evidence adds to the first layer that scores it.
-    drawn: Vec<Vec<[f32; SCORE]>>,
+    pairs: Vec<[f32; PAIR]>,
 }
 
 impl Garment {
@@ -113,16 +111,8 @@ impl Garment {
         let symmetry = symmetry(parts, &stretches);
         let seen = evidence::evidence(parts, &stretches, &symmetry);
         let count = stretches.len();
-        let mut drawn = vec![Vec::new(); ROUNDS];
-        for at in 0..count * count {
-            let pair = evidence::pair(&stretches, &symmetry, at / count, at % count);
-            for (round, drawn) in NETWORK.rounds.iter().zip(&mut drawn) {
-                let mut first = [0.0; SCORE];
-                round.score[0].add(0, &pair, &mut first);
-                drawn.push(first);
-            }
-        }
-        Self { stretches, symmetry, seen, drawn }
+        let pairs = (0..count * count).map(|k| evidence::pair(&stretches, &symmetry, k / count, k % count)).collect();
+        Self { stretches, symmetry, seen, pairs }
     }
 
     /// Likelihoods of what is not stated, given what is.
@@ -197,7 +187,7 @@ impl Network {
     }
 
     fn likelihoods(&self, garment: &Garment, facts: &Facts) -> Likelihoods {
-        let Garment { stretches, symmetry, seen, drawn } = garment;
+        let Garment { stretches, symmetry, seen, pairs } = garment;
         let count = stretches.len();
         let enter = |k: usize| {
             let inputs = seen.shape[k].iter().chain(&seen.place[k]).chain(&seen.said[k]);
@@ -211,8 +201,8 @@ impl Network {
         let stated = |k: usize| facts.row(k, count).unwrap_or_else(|| vec![0.0; count + 1]);
         let mut found = Found { rows: (0..count).flat_map(stated).collect(), count };
         let mut handed = found.handed(&vec![0.0; count * count], stretches, symmetry);
-        for (round, drawn) in self.rounds.iter().zip(drawn) {
-            let scores = round.scores(&state, &Pairs { drawn, handed: &handed, joints: &joints, facts });
+        for round in &self.rounds {
+            let scores = round.scores(&state, &Pairs { drawn: pairs, handed: &handed, joints: &joints, facts });
             found = Found { rows: round.rows(&state, &scores, &found, facts), count };
             handed = found.handed(&scores, stretches, symmetry);
             let messages: Vec<Vec<f32>> = state.rows.iter().map(|row| dense(&round.message, row.clone())).collect();
@@ -249,14 +239,13 @@ fn rectify(row: &mut [f32]) {
 impl Layer {
     fn of(&self, row: &[f32]) -> Vec<f32> {
         let mut sums = self.offsets.clone();
-        debug_assert_eq!(row.len(), self.inputs);
-        self.add(0, row, &mut sums);
+        self.add(row, &mut sums);
         sums
     }
 
-    /// Adds what the inputs from `first` on make of a row.
-    fn add(&self, first: usize, row: &[f32], sums: &mut [f32]) {
-        for (&number, weights) in row.iter().zip(self.weights.chunks_exact(self.outputs).skip(first)) {
+    fn add(&self, row: &[f32], sums: &mut [f32]) {
+        debug_assert_eq!(row.len(), self.inputs);
+        for (&number, weights) in row.iter().zip(self.weights.chunks_exact(self.outputs)) {
             if number != 0.0 {
                 sums.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += number * weight);
             }
@@ -322,7 +311,7 @@ impl State<'_> {
 
 /// Evidence of all pairs in a round.
 struct Pairs<'p> {
-    drawn: &'p [[f32; SCORE]],
+    drawn: &'p [[f32; PAIR]],
     handed: &'p [[f32; HANDED]],
     joints: &'p Joints,
     facts: &'p Facts,
@@ -334,26 +323,27 @@ impl Round {
         let count = state.rows.len();
         let ranks: Vec<Vec<f32>> = state.rows.iter().map(|row| dense(&self.rank, row.clone())).collect();
         let own: Vec<Vec<f32>> = state.rows.iter().map(|row| dense(&self.own, row.clone())).collect();
-        let mut inputs = [0.0; RANK + HANDED + JOINTS];
+        let mut inputs = [0.0; PAIR + RANK + HANDED + JOINTS];
         let mut directed = |i: usize, j: usize| {
             let at = i * count + j;
+            inputs[..PAIR].copy_from_slice(&pairs.drawn[at]);
             for k in 0..RANK {
-                inputs[k] = ranks[i][k] * ranks[j][RANK + k] + ranks[i][RANK + k] * ranks[j][k];
+                inputs[PAIR + k] = ranks[i][k] * ranks[j][RANK + k] + ranks[i][RANK + k] * ranks[j][k];
             }
-            inputs[RANK..RANK + HANDED].copy_from_slice(&pairs.handed[at]);
-            inputs[RANK + HANDED..].copy_from_slice(&pairs.joints.of_pair(i, j));
+            inputs[PAIR + RANK..PAIR + RANK + HANDED].copy_from_slice(&pairs.handed[at]);
+            inputs[PAIR + RANK + HANDED..].copy_from_slice(&pairs.joints.of_pair(i, j));
             let mut first = [0.0; SCORE];
             for (k, sum) in first.iter_mut().enumerate() {
-                *sum = self.score[0].offsets[k] + own[i][k] + own[j][k] + pairs.drawn[at][k];
+                *sum = self.score[0].offsets[k] + own[i][k] + own[j][k];
             }
-            self.score[0].add(PAIR, &inputs, &mut first);
+            self.score[0].add(&inputs, &mut first);
             rectify(&mut first);
             let mut second = [0.0; SECOND];
             second.copy_from_slice(&self.second[0].offsets);
-            self.second[0].add(0, &first, &mut second);
+            self.second[0].add(&first, &mut second);
             rectify(&mut second);
             let mut last = [self.second[1].offsets[0]];
-            self.second[1].add(0, &second, &mut last);
+            self.second[1].add(&second, &mut last);
             last[0]
         };
         let mut scores = vec![0.0; count * count];
@@ -418,15 +408,10 @@ impl Found {
 
     fn handed(&self, scores: &[f32], stretches: &[Stretch], symmetry: &Symmetry) -> Vec<[f32; HANDED]> {
         let best: Vec<[f32; 2]> = (0..self.count).map(|k| self.best(k)).collect();
-        let lengths: Vec<f32> = stretches.iter().map(|stretch| mm(stretch.length) as f32).collect();
-        // What the stretches that want this one take of it.
-        let wanted: Vec<f32> =
-            (0..self.count).map(|k| (0..self.count).map(|j| self.of(j, k) * lengths[j]).sum()).collect();
         let of_pair = |at: usize| {
             let (i, j) = (at / self.count, at % self.count);
             let (a, b) = (self.of(i, j), self.of(j, i));
             let [p, q] = [i, j].map(|k| &stretches[k]);
-            let rest = (lengths[i] - wanted[i] + b * lengths[j] - lengths[j]).abs();
             let rival = |from: usize, own: f32| if own >= best[from][1] { best[from][0] } else { best[from][1] };
             [
                 self.both(Some((i, j))),
@@ -438,8 +423,6 @@ impl Found {
                 rival(i, a) + rival(j, b),
                 self.both(symmetry.own[i].zip(symmetry.twin[j])) + self.both(symmetry.twin[i].zip(symmetry.own[j])),
                 a * (1.0 - b) + b * (1.0 - a),
-                (-rest / 3.0).exp(),
-                (-rest / (0.05 * lengths[i] + 1e-3)).exp(),
             ]
         };
         (0..self.count * self.count).map(of_pair).collect()

@@ -2,7 +2,6 @@
 
 use super::facts::{Fact, Facts};
 use super::network::{Garment, Likelihoods};
-use super::surface::Surface;
 
 /// Likelihood from which a seam is stated at once. Below it, the likeliest are stated first.
 const SURE: f64 = 0.95;
@@ -12,18 +11,6 @@ const TOGETHER: f64 = 0.8;
 const MOST_BRIDGES: usize = 6;
 /// Greatest difference in length of a seam that is tried to join parts: what is sewn plain.
 const EVEN: f64 = 0.02;
-/// Costs in nats of a handle and of a hole that nothing fits through: of drawn garments one in thousands has one.
-const HANDLE: f64 = 30.0;
-const PINHOLE: f64 = 4.0;
-const FALLEN_APART: f64 = 8.0;
-/// Logarithm of the least likelihood that an exchange takes into account.
-const LEAST_LOG: f64 = -6.0;
-/// Greatest difference in length of seams that exchange their sides.
-const EXCHANGED: f64 = 0.03;
-/// Most exchanges.
-const MOST_EXCHANGES: usize = 6;
-/// Least likelihood of a seam that is tried to join parts.
-const BRIDGES: f64 = 0.02;
 /// Likelihood below which a pair is not looked at.
 const LEAST: f64 = 1e-6;
 /// Likelihood from which a pair is compared with what exchanges of equal parts would make of it.
@@ -40,7 +27,7 @@ pub struct Found {
 }
 
 impl Found {
-    pub fn joins(&self, a: usize, b: usize) -> bool {
+    fn is_of(&self, a: usize, b: usize) -> bool {
         (self.a, self.b) == (a, b) || (self.a, self.b) == (b, a)
     }
 }
@@ -52,26 +39,8 @@ pub struct Settled {
     pub free: Vec<f64>,
 }
 
-/// Seams of the garment. It hangs together: where it falls apart, the likeliest seams that join it are tried. It has no
-/// handles: where it has some, seams as long as each other exchange their sides, and the rest is weighed anew.
+/// Seams of the garment. It hangs together: where it falls apart, the likeliest seams that join it are tried.
 pub fn seams(garment: &Garment, facts: &Facts) -> Settled {
-    let first = garment.likelihoods(facts);
-    let (mut stated, mut exchanged): (Facts, Vec<Found>) = (facts.clone(), Vec::new());
-    loop {
-        let mut settled = joined(garment, &stated);
-        for seam in &mut settled.seams {
-            if let Some(found) = exchanged.iter().find(|found| found.joins(seam.a, seam.b)) {
-                *seam = *found;
-            }
-        }
-        let exchange = settled.exchange(garment, &stated, &first).filter(|_| exchanged.len() < 2 * MOST_EXCHANGES);
-        let Some(seams) = exchange else { return settled };
-        seams.iter().for_each(|seam| stated.sew(seam.a, seam.b));
-        exchanged.extend(seams);
-    }
-}
-
-fn joined(garment: &Garment, facts: &Facts) -> Settled {
     let mut best = settled(garment, facts);
     let (mut facts, first) = (facts.clone(), garment.likelihoods(facts));
     for _ in 0..MOST_BRIDGES {
@@ -84,9 +53,7 @@ fn joined(garment: &Garment, facts: &Facts) -> Settled {
         let mut bridges = pairs(garment, &facts, &left, &first);
         let length = |k: usize| garment.stretches[k].length;
         let is_even = |a: f64, b: f64| (a - b).abs() < EVEN * a.max(b);
-        bridges.retain(|bridge| {
-            bridge.likelihood > BRIDGES && joined.joins(bridge) && is_even(length(bridge.a), length(bridge.b))
-        });
+        bridges.retain(|bridge| joined.joins(bridge) && is_even(length(bridge.a), length(bridge.b)));
         bridges.truncate(MOST_BRIDGES);
         let tried = bridges.iter().map(|bridge| {
             let mut facts = facts.clone();
@@ -96,7 +63,7 @@ fn joined(garment: &Garment, facts: &Facts) -> Settled {
             twins.into_iter().for_each(|(a, b)| facts.sew(a, b));
             let mut tried = settled(garment, &facts);
             let is_tried =
-                |seam: &Found| seam.joins(bridge.a, bridge.b) || twins.is_some_and(|(a, b)| seam.joins(a, b));
+                |seam: &Found| seam.is_of(bridge.a, bridge.b) || twins.is_some_and(|(a, b)| seam.is_of(a, b));
             for seam in tried.seams.iter_mut().filter(|seam| is_tried(seam)) {
                 (seam.likelihood, seam.confidence) = (bridge.likelihood, bridge.likelihood);
             }
@@ -109,8 +76,7 @@ fn joined(garment: &Garment, facts: &Facts) -> Settled {
     best
 }
 
-/// Likeliest seams one after another, whatever they make of the whole.
-pub fn settled(garment: &Garment, facts: &Facts) -> Settled {
+fn settled(garment: &Garment, facts: &Facts) -> Settled {
     let count = garment.stretches.len();
     let mut settled = Settled { seams: Vec::new(), free: vec![0.0; count] };
     for k in 0..count {
@@ -167,46 +133,6 @@ impl Settled {
             (sure[seam.a], sure[seam.b]) = (seam.confidence, seam.confidence);
         }
         sure
-    }
-
-    /// Two seams as long as each other that would make the likeliest surface with their sides exchanged. `None` if that
-    /// of now is the likeliest.
-    fn exchange(&self, garment: &Garment, facts: &Facts, first: &Likelihoods) -> Option<[Found; 2]> {
-        let stretches = &garment.stretches;
-        let surface = |seams: &[Found]| {
-            let Surface { components, handles, pinholes, .. } =
-                Surface::of(stretches, seams.iter().map(|seam| (seam.a, seam.b)));
-            HANDLE * handles as f64 + PINHOLE * pinholes as f64 + FALLEN_APART * components as f64
-        };
-        let both = |a: usize, b: usize| (first.of(a, b) * first.of(b, a)).sqrt();
-        let cost = |a: usize, b: usize| -2.0 * both(a, b).max(LEAST).ln().max(LEAST_LOG);
-        let is_even = |a: usize, b: usize| {
-            let (a, b) = (stretches[a].length, stretches[b].length);
-            (a - b).abs() < EXCHANGED * a.max(b)
-        };
-        let now = surface(&self.seams);
-        let mut best: Option<(f64, [Found; 2])> = None;
-        let open: Vec<usize> = (0..self.seams.len()).filter(|&k| facts.of(self.seams[k].a).is_none()).collect();
-        for (at, &i) in open.iter().enumerate() {
-            for &j in &open[at + 1..] {
-                let (p, q) = (self.seams[i], self.seams[j]);
-                for [(a, b), (c, d)] in [[(p.a, q.a), (p.b, q.b)], [(p.a, q.b), (p.b, q.a)]] {
-                    let gain = cost(p.a, p.b) + cost(q.a, q.b) - cost(a, b) - cost(c, d);
-                    if !is_even(a, b) || !is_even(c, d) || gain < -HANDLE {
-                        continue;
-                    }
-                    let mut tried = self.seams.clone();
-                    (tried[i].a, tried[i].b, tried[j].a, tried[j].b) = (a, b, c, d);
-                    let gain = gain + now - surface(&tried);
-                    if gain > best.map_or(LEAST, |best| best.0) {
-                        let confidence = |a: usize, b: usize| both(a, b).max(1.0 / (1.0 + (-gain).exp()));
-                        let found = |(a, b)| Found { a, b, likelihood: confidence(a, b), confidence: confidence(a, b) };
-                        best = Some((gain, [found((a, b)), found((c, d))]));
-                    }
-                }
-            }
-        }
-        best.map(|(_, seams)| seams)
     }
 
     /// Number of groups of parts that nothing joins.

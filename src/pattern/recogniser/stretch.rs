@@ -38,40 +38,6 @@ impl Part {
     }
 }
 
-impl Part {
-    /// Adds corners at arc lengths along a stretch, increasing. The outline begins at its first corner then.
-    pub fn divide(&mut self, at: usize, arcs: &[f64]) {
-        let first = self.corners[0];
-        self.outline.rotate_left(first);
-        self.corners.iter_mut().for_each(|corner| *corner -= first);
-        let Some(line) = line(self, at).filter(|_| !arcs.is_empty()) else { return };
-        let (from, n) = (self.corners[at], self.outline.len());
-        // Each behind a vertex, or as the vertex itself.
-        let (mut added, mut marked): (Vec<(usize, V2)>, Vec<usize>) = (Vec::new(), self.corners.clone());
-        for &arc in arcs {
-            let last = line.points().len() - 2;
-            let before = line.arcs().iter().rposition(|&vertex| vertex <= arc + SAME_PLACE_M).unwrap_or(0).min(last);
-            let point = line.at(arc);
-            match (line.points()[before] - point).norm() <= SAME_PLACE_M {
-                true => marked.push((from + before) % n),
-                false => added.push(((from + before) % n, point)),
-            }
-        }
-        let (mut outline, mut corners) = (Vec::with_capacity(n + added.len()), Vec::new());
-        for (vertex, &point) in self.outline.iter().enumerate() {
-            if marked.contains(&vertex) {
-                corners.push(outline.len());
-            }
-            outline.push(point);
-            for (_, point) in added.iter().filter(|(before, _)| *before == vertex) {
-                corners.push(outline.len());
-                outline.push(*point);
-            }
-        }
-        (self.outline, self.corners) = (outline, corners);
-    }
-}
-
 /// Difference of distances that counts as none.
 const SAME_PLACE_M: f64 = 0.5e-3;
 
@@ -101,22 +67,6 @@ pub struct Stretch {
     pub outward: V2,
     /// Arc lengths of notches, m.
     pub notches: Vec<f64>,
-}
-
-impl Stretch {
-    /// As [`Self::profile`], of the part that begins at a share of the length and covers another.
-    pub fn directions(&self, from: f64, share: f64) -> [f64; SAMPLES] {
-        let at = |k: usize| {
-            let place = (from + share * (k as f64 + 0.5) / SAMPLES as f64) * SAMPLES as f64 - 0.5;
-            let place = place.clamp(0.0, (SAMPLES - 1) as f64);
-            let before = (place as usize).min(SAMPLES - 2);
-            let rest = place - before as f64;
-            self.profile[before] * (1.0 - rest) + self.profile[before + 1] * rest
-        };
-        let directions: [f64; SAMPLES] = std::array::from_fn(at);
-        let mean = directions.iter().sum::<f64>() / SAMPLES as f64;
-        directions.map(|direction| direction - mean)
-    }
 }
 
 /// In the order of the parts, and of the corners in each.
@@ -212,30 +162,4 @@ fn notches(part: &Part, line: &Polyline) -> Vec<f64> {
     let mut arcs: Vec<f64> = of_line.collect();
     arcs.sort_by(f64::total_cmp);
     arcs
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_stretch_that_is_divided_keeps_the_others_in_order() {
-        let outline = [[0.0, 0.0], [0.4, 0.0], [0.4, 0.6], [0.2, 0.6], [0.0, 0.6]].map(V2::from).to_vec();
-        let part = Part { outline, corners: vec![1, 2, 4], notches: Vec::new(), said: Named::default() };
-        let check = |at: usize, arcs: &[f64], expect: &[f64]| {
-            let mut divided = part.clone();
-            divided.divide(at, arcs);
-            let lengths: Vec<f64> = stretches(&[divided]).iter().map(|stretch| stretch.length).collect();
-            assert_eq!(lengths.len(), expect.len(), "{lengths:?}");
-            lengths
-                .iter()
-                .zip(expect)
-                .for_each(|(found, expect)| assert!((found - expect).abs() < 1e-9, "{lengths:?}"));
-        };
-        check(0, &[], &[0.6, 0.4, 1.0]);
-        check(0, &[0.1, 0.3], &[0.1, 0.2, 0.3, 0.4, 1.0]);
-        // At a vertex, and round the first vertex of the outline.
-        check(1, &[0.2], &[0.6, 0.2, 0.2, 1.0]);
-        check(2, &[0.5, 0.8], &[0.6, 0.4, 0.5, 0.3, 0.2]);
-    }
 }
