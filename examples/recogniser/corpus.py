@@ -16,7 +16,7 @@ import sys
 
 import numpy as np
 
-from garments import BACK, BAND, BODY, BOTH, COLLAR, CUFF, FRONT, LEFT, LEG, OTHER, Piece, RIGHT, SIDE, SKIRT, SLEEVE, YOKE, arcs, area, at_arc, crosses_itself, cut, kind, length, other_hand, read, written
+from garments import BACK, BAND, BODY, BOTH, COLLAR, CUFF, FRONT, LEFT, LEG, OTHER, Piece, RIGHT, SIDE, SKIRT, SLEEVE, YOKE, arcs, area, at_arc, crosses_itself, length, other_hand, read, written
 
 
 def glued(g, key):
